@@ -735,6 +735,7 @@ FIXED_MODE = Template(
     "fixed-modes-row",
     "{p:polynomial} | {roots:roots} | {stable:yes} | {in_A:int or open} | {stays:int} | {s:set} | "
     "{rank:int}",
+    columns=("factor", "roots, about", "stable", "in A", "fixed", "s", "rank"),
 )
 FIXED_MODES_NOTE = Template(
     "fixed-modes-note",

@@ -28,7 +28,15 @@ from mcexact.answer import (
 )
 from mcexact.answer.rulebook import ALLOCATION, ANALYSIS, LINKS, OWN, own_rules
 from mcexact.answer.sentence import Rulebook
-from mcexact.answer.templates import GAINS, Template, phrases_of, templates
+from mcexact.answer.templates import (
+    BANDWIDTH,
+    GAINS,
+    WEIGHTS,
+    Template,
+    agrees,
+    phrases_of,
+    templates,
+)
 
 PARAMETERS = Rulebook([*parameters.RULES, *several_parameters.RULES])
 _OF_LOOPS = (*performance.RULES, *saturation.RULES, *modulo.LOOP_PART_RULES)
@@ -98,7 +106,7 @@ def listing() -> str:
 
 
 def _row(template: Template, rulebook: Rulebook) -> str:
-    text = f"{template.label}: {template.text}" if template.label else template.text
+    text = template.in_line(template.text.split(" | "))
     premises = ", ".join(f"`{premise}`" for premise in premises_of(template, rulebook))
     premises = premises if template.claims else "*remark*"
     cells = (template.key, f"`{text}`", premises, template.theorem)
@@ -115,6 +123,7 @@ _ROUNDED = {
     "percent_above": "percent above",
     "part": "part above",
     "step": "near",
+    "frequency": "near",
 }
 
 
@@ -125,7 +134,7 @@ def wordings() -> str:
 
 
 def _wording(template: Template) -> list[Any]:
-    return _parts(f"{template.label}: {template.text}" if template.label else template.text)
+    return _parts(template.in_line(template.text.split(" | ")))
 
 
 def _parts(text: str) -> list[Any]:
@@ -133,7 +142,10 @@ def _parts(text: str) -> list[Any]:
     parts: list[Any] = []
     for words, name, spec, _ in string.Formatter().parse(text):
         parts += [words] if words else []
-        parts += [_field(name, spec or "")] if name else []
+        if spec == "weights":
+            parts += [*_parts(WEIGHTS), ["if", "bandwidth", *_parts(BANDWIDTH)]]
+        elif name:
+            parts.append(_field(name, spec or ""))
     return parts
 
 
@@ -145,10 +157,14 @@ def _field(name: str, spec: str) -> list[Any]:
         return ["count", spec.removeprefix("count ")]
     if spec == "gains":
         return ["maybe", *_parts(GAINS)]
+    if spec == "diagonal":
+        return [spec, name]
     if spec in {"int", "region"}:
         return [spec]
     phrases = phrases_of(spec)
-    return ["of", *phrases] if phrases else ["any"]
+    if not phrases:
+        return ["any"]
+    return ["agree" if agrees(spec) else "of", *phrases]
 
 
 if __name__ == "__main__":

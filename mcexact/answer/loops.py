@@ -240,7 +240,7 @@ FEEDBACK = Template("design-feedback", "{p:polynomial}", label="spectrum of A + 
 ERRORS = Template("design-errors", "{p:polynomial}", label="spectrum of the errors")
 REGION = Template("design-region", "{region:region}", label="every eigenvalue of the loop")
 OBSERVER_ORDER = Template(
-    "design-observer-order", "{order:int}", label="states of the paper's observer"
+    "design-observer-order", "{order:int}", label="states of an observer instead"
 )
 SHARED = Template("design-shared", "{sizes:dimensions}", label="shared dimensions")
 ASSIGNED = Template("design-assigned", "{p:polynomial}", label="assigned spectrum")

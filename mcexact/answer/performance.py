@@ -288,7 +288,7 @@ GROUP_BOUND = Template(
     "which agents act on each other along {edges:edges} alone, {weights:weights}",
     label="cost of others in the same graph",
 )
-_TIMES = "at most {ratio:digits_above} times this bound for every linear time-invariant controller"
+_TIMES = "at most {ratio:digits_above} times that of every linear time-invariant controller"
 RATIO = Template("performance-ratio", _TIMES + "{proper:proper}", label="cost beside others")
 GROUP_RATIO = Template(
     "performance-ratio-graph",

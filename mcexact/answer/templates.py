@@ -179,6 +179,16 @@ class _Agreeing:
         return self.one if size == 1 else self.more
 
 
+@dataclass(frozen=True)
+class _Only:
+    """A form that has words if its value is true."""
+
+    words: str
+
+    def __call__(self, value: Any) -> str:
+        return self.words if value else ""
+
+
 _TIMES = {1: "once", 2: "twice", 3: "three times"}
 
 
@@ -459,15 +469,20 @@ def _diagonal(entries: Sequence[Fraction]) -> str:
     return f"diag({', '.join(cut([number(x) for x in entries], 6))})"
 
 
+WEIGHTS = (
+    "the mean of x'Qx + u'Ru with Q = {states:diagonal}, R = {inputs:diagonal} under white "
+    "disturbances of intensity {disturbances:diagonal} and white noise of the outputs of intensity "
+    "{noise:diagonal}"
+)
+BANDWIDTH = " behind v' = -ωv + ωn with ω = {bandwidth:frequency}"
+"""The cost, the disturbances and the noise, and the filter that the noise passes, if any."""
+
+
 def _weights(weights: Sequence[Any]) -> str:
     """Write the cost, the disturbances and the noise, from Q, R, W, V and the bandwidth."""
-    *diagonals, bandwidth = weights
-    Q, R, W, V = map(_diagonal, diagonals)
-    band = "" if bandwidth is None else f" behind v' = -ωv + ωn with ω = {number(bandwidth)}"
-    return (
-        f"the mean of x'Qx + u'Ru with Q = {Q}, R = {R} under white disturbances of intensity {W} "
-        f"and white noise of the outputs of intensity {V}{band}"
-    )
+    names = ("states", "inputs", "disturbances", "noise", "bandwidth")
+    text = WEIGHTS if weights[-1] is None else WEIGHTS + BANDWIDTH
+    return _Writer().vformat(text, (), dict(zip(names, weights, strict=True)))
 
 
 def _sectors(sectors: Sequence[tuple[Fraction, Fraction]]) -> str:
@@ -597,11 +612,13 @@ FORMS: dict[str, Write] = {
     "digits_above": lambda number: three_digits(number, up=True),
     "digits_below": three_digits,
     "weights": _weights,
-    "proper": lambda only: " whose inputs do not depend on the outputs at once" if only else "",
+    "diagonal": _diagonal,
+    "frequency": number,
+    "proper": _Only(" whose inputs do not depend on the outputs at once"),
     "sectors": _sectors,
     "input limits": _limits,
-    "in sizes": lambda some: ", each state divided by its size," if some else "",
-    "rounded samples": lambda which: _SAMPLES[which],
+    "in sizes": _Only(", each state divided by its size,"),
+    "rounded samples": _SAMPLES.__getitem__,
     "several modes": several_modes,
     "failures": failures_in_words,
     "failures together": lambda failures: failures_in_words(failures, "and"),
@@ -609,7 +626,7 @@ FORMS: dict[str, Write] = {
     "nothing further": _spared("nothing further"),
     "not decided": lambda sizes: f"; of {_so_many(*sizes)} it is not known" if sizes else "",
     "parts": choice(own="agent, actuator or sensor", outputs="agent, actuator, sensor or link"),
-    "windup": lambda some: " and with the anti-windup gains of the controller" if some else "",
+    "windup": _Only(" and with the anti-windup gains of the controller"),
     "step": approximated,
     "late": lambda steps: f" and applied {count(steps, 'step')} late" if steps else "",
     "short late": lambda steps: f", {count(steps, 'step')} late" if steps else "",
@@ -638,8 +655,21 @@ def phrases_of(spec: str) -> tuple[str, ...]:
         return "yes", "no"
     if isinstance(write, _Agreeing):
         return write.one, write.more
+    if isinstance(write, _Only):
+        return "", write.words
     words = getattr(write, "__self__", None)
     return tuple(words.values()) if isinstance(words, dict) else ()
+
+
+def agrees(spec: str) -> bool:
+    """Whether the phrases of a form say the same of one and of several.
+
+    Examples
+    --------
+    >>> agrees("are"), agrees("yes")
+    (True, False)
+    """
+    return isinstance(FORMS.get(spec), _Agreeing)
 
 
 # Sentences about a user's system, and their templates with fields for values.
@@ -685,8 +715,8 @@ class Sentence(str):
 
     @property
     def line(self) -> str:
-        """The text, after the label if there is one."""
-        return f"{self.template.label}: {self}" if self.template.label else str(self)
+        """The text, after the label if there is one; in a row each cell after its column."""
+        return self.template.in_line(self.split(" | ") if self.template.columns else [self])
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (str, (str(self),))
@@ -711,6 +741,8 @@ class Template:
     claims : bool
         Whether its sentences claim something.  A title, and what is not decided or not proved, is a
         remark, which the checker does not count as implied.
+    columns : tuple of str
+        The heads of the columns, without which a row could not be read by itself.
     """
 
     key: str
@@ -718,6 +750,15 @@ class Template:
     theorem: str = ""
     label: str = ""
     claims: bool = True
+    columns: tuple[str, ...] = ()
+
+    def in_line(self, parts: Sequence[str]) -> str:
+        """The parts of a text in one line, after the label or the heads of their columns."""
+        if self.columns:
+            named = zip(self.columns, parts, strict=True)
+            return "; ".join(f"{column}: {part}" for column, part in named)
+        text = " | ".join(parts)
+        return f"{self.label}: {text}" if self.label else text
 
     @property
     def fields(self) -> tuple[str, ...]:

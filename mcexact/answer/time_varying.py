@@ -28,7 +28,7 @@ TIME_VARYING = Template(
 )
 NO_CAUSAL = Template(
     "no-causal-control",
-    "No other causal {control:causal} can stabilize it.",
+    "Time-varying or nonlinear {control:causal} cannot stabilize it either, if it is causal.",
     _NECESSARY,
 )
 OPTION = Template(

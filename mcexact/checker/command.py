@@ -68,12 +68,13 @@ from .kinds import (
     same,
     sampled_again,
 )
+from .page import Audit, bytes_of
 from .parametric_system import FunctionSystem, digest_of_values
 from .sentences import ANOTHER_STEP, AT_SAMPLES, RULES, Premise
 from .sentences_loops import CLOSED
 from .sentences_performance import held_from
 from .summaries import cut
-from .wording import is_worded, known_numbers, wordings
+from .wording import Places, known_numbers, left_open, wordings
 
 # Manifests: sentences, and the certificates that imply them; ``FORMAT.md`` specifies them.
 
@@ -88,8 +89,8 @@ INDEX = re.compile(r"0|[1-9][0-9]{0,9}")
 WITH_DIGEST = re.compile(r" with SHA-256 [0-9a-f]{64}")
 NUMBER = re.compile(r"\[[0-9]+\]")
 """The number of a certificate, in place of its statement."""
-MOST_QUOTED = 200
-"""The most characters that are quoted of a sentence, or of what follows from its premises."""
+MOST_CUT = 200
+"""The most characters of what follows from premises, on a line."""
 Read = Callable[[str], bytes]
 """What gives the bytes of a certificate by its name, and of the manifest by ""."""
 
@@ -342,29 +343,35 @@ class Evidence:
             pointers = {name: tuple(p for n, p, _ in because if n == name) for name in cited}
             premises = [replace(self.premises[name], pointers=pointers[name]) for name in cited]
             words = RULES[key].implied(premises, [*self.premises.values()])
-            self._require_words(sentence, words, premises)
+            left = self._left_open(sentence, words, premises)
             short = self._in_short(words, premises)
             words += f" [{theorem}]" if theorem else ""
             spend(len(words))
             if not RULES[key].claims:
                 return Verdict("REMARK", words)
             words += f" from {', '.join(cited)}" if cited else ""
-            return Verdict("IMPLIED", words, summary=short)
+            return Verdict("IMPLIED", words, summary=short, left_open=left)
 
         with limited(self.budget):
             return attempt(check).inside(f"{place} {shown(key)}")
 
-    def _require_words(
+    def _left_open(
         self, sentence: dict[str, Json], words: str, premises: Sequence[Premise]
-    ) -> None:
-        """Stop unless a text is what its rule says, with the numbers that follow."""
+    ) -> Places:
+        """The places of a text that are not compared; stop unless the others are as they should be.
+
+        They are what the rule says, with the numbers that follow.
+        """
         if not sentence["text"]:
-            return
+            return ()
         for premise in premises:
             words = words.replace(premise.statement, "")
         known = known_numbers(sentence["because"], words)
-        good = is_worded(sentence["text"], wordings()[sentence["rule"]], known)
-        require(good, "text", "text", "other words than those of its rule, or other numbers")
+        places = left_open(sentence["text"], wordings()[sentence["rule"]], known)
+        if places is None:
+            message = "other words than those of its rule, or other numbers"
+            raise Refused("INVALID", "text", "text", message)
+        return places
 
     def _in_short(self, words: str, premises: Sequence[Premise]) -> str:
         """What follows, in one line: without digests, and with numbers for whole statements.
@@ -377,7 +384,7 @@ class Evidence:
         short = words.replace(self.own()[0].plant.words, "the plant").removeprefix("For ")
         short = WITH_DIGEST.sub("", short.removeprefix("the plant: "))
         alone = [each.file for each in premises if short == f"[{numbers[each.file]}]"]
-        return self.verdicts[alone[0]].summary if alone else cut(short, MOST_QUOTED)
+        return self.verdicts[alone[0]].summary if alone else short
 
 
 def fails_first(steps: list[Json], base: list[Json]) -> bool:
@@ -443,15 +450,19 @@ def line_of(result: Found, *, named: bool, statements: bool = False) -> str:
 
     A certificate of a manifest has its number before its name.  Of a sentence that is implied, the
     numbers of its premises come first, and in words of the checker what follows from them; its
-    text, in which anything may be written, is quoted at the end.
+    text is quoted at the end, with the words that were not compared.
     """
     about, verdict = result
     if "text" in about:
-        name = ascii(about["text"])
-        name = name if statements else cut(name, MOST_QUOTED)
+        text = about["text"]
+        name = ascii(text)
+        name = cut(name, MOST_CUT) if verdict.status and not statements else name
         if verdict.verdict == "IMPLIED":
             by = f"by {about['premises']}" if about["premises"] else ""
-            return as_options(f"{verdict.line(by, short=not statements)}; in the report: {name}")
+            verdict = replace(verdict, summary=cut(verdict.summary, MOST_CUT))
+            open_ = ", ".join(ascii(text[start:end]) for start, end in verdict.left_open)
+            words = f"{verdict.line(by, short=not statements)}; in the report: {name}"
+            return as_options(f"{words}; compare {open_}" if open_ else words)
     else:
         name = ascii(about["file"]) if named or "number" in about else ""
         name = f"{about['number']} {name}" if "number" in about else name
@@ -625,6 +636,13 @@ def seconds(text: str) -> float:
     raise argparse.ArgumentTypeError(f"expected a number of seconds above 0, found {text!a}")
 
 
+def page_name(text: str) -> str:
+    """The file of a page, which no certificate and no plant has."""
+    if text.endswith(".html"):
+        return text
+    raise argparse.ArgumentTypeError(f"expected a name that ends with .html, found {text!a}")
+
+
 OPTIONS: tuple[tuple[str, str, Callable[[str], object], str], ...] = (
     ("manifest", "FILE", str, "verify the sentences of this manifest from its certificates"),
     (
@@ -641,6 +659,7 @@ OPTIONS: tuple[tuple[str, str, Callable[[str], object], str], ...] = (
     ("max-work", "N", count, "most units for a file, or for a manifest with its certificates"),
     ("timeout", "SECONDS", seconds, "the time of the run; what is not decided is INCOMPLETE"),
     ("max-memory", "MIB", count, "the memory that may be added; what needs more is INCOMPLETE"),
+    ("html", "FILE", page_name, "write a page that an auditor can sign"),
 )
 """Name, value, how it is read, and help; what begins with ``max-`` may stand in ``Limits``."""
 
@@ -722,7 +741,15 @@ def _run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None) -> in
     if options.json:
         rows = [about | asdict(verdict) for about, verdict in results]
         _say(json.dumps({"format": FORMAT, "verdicts": rows}, indent=1))
-    return status_of(results)
+    status = status_of(results)
+    if options.html:
+        archive = "".join(each for _, each in bytes_of(getattr(__spec__.loader, "archive", "")))
+        ends = {"status": status, "last": line_of(results[-1], named=named)}
+        made = {"archive": archive, "program": "the checker"}
+        audit = Audit.of(results, files, manifest, asking, **ends, **made)
+        with open(options.html, "w", encoding="utf-8") as page:
+            page.write(audit.page())
+    return status
 
 
 def _say(text: str) -> None:

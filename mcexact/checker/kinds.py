@@ -444,8 +444,9 @@ class Check:
         budget = current(self.allowed.work)
         before = budget.spent
         verdict = attempt(lambda: self._verdict(data, budget))
-        found = {"system_digest": self.digest, "controller_digest": self.controller}
-        return replace(verdict, spent=budget.spent - before, **found)
+        plant, controller = self.digest, self.controller
+        verdict = replace(verdict, system_digest=plant, controller_digest=controller)
+        return replace(verdict, spent=budget.spent - before)
 
     def _verdict(self, data: bytes | Mapping[str, Json], budget: Budget) -> Verdict:
         """VALID, or the exception `Refused`."""

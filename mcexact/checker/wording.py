@@ -1,9 +1,9 @@
 """Whether the text of a sentence is what its rule says, with the numbers that follow.
 
 ``wordings.json`` has the template of each rule: fixed words, and fields.  A number that was rounded
-to its safe side, or that bounds eigenvalues, is compared with what follows from the certificates.
-Any other field is not compared: one of a few phrases such as yes and no, a whole number, modes,
-names, channels or weights.
+to its safe side, or that bounds eigenvalues, is compared with what follows from the certificates,
+and so are the weights of a cost.  Any other field is not compared, and its place is told: one of a
+few phrases such as yes and no, a whole number, modes, names or channels.
 """
 
 from __future__ import annotations
@@ -25,12 +25,18 @@ NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d{1,4}|/\d+)?", re.ASCII)
 DIGEST = re.compile(r"\b[0-9a-f]{64}\b")
 WHOLE = re.compile(r"-?\d+", re.ASCII)
 BOUND = re.compile(r"(?:, | and )?([^0-9,]{1,40}?)(-?\d[0-9./e+-]*)", re.ASCII)
+DIAGONAL = re.compile(r"(?:([^ ,()]{1,400}) )?I\b|diag\(([^()]*)\)", re.ASCII)
+MORE = re.compile(r", (\d+) more$", re.ASCII)
 ROUGHLY = chr(0x2248)
 """The sign before a number that is nearly another one."""
 MOST_DIGITS = 400
 """A longer number of a text is not compared."""
 
 Part = str | Sequence[Any]
+Places = tuple[tuple[int, int], ...]
+"""Where parts of a text begin and end."""
+End = tuple[int, bool]
+"""Where a part of a text ends, and whether it was compared."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +56,14 @@ class Known:
 
     def cites(self, field: str) -> bool:
         """Whether a value was read whose pointer ends with a name."""
-        return any(pointer.endswith(f"/{field}") for _, pointer, _ in self.because)
+        cited = (x for _, pointer, x in self.because if pointer.endswith(f"/{field}"))
+        return any(x is not None for x in cited)
+
+    def lists(self, field: str) -> list[list[Fraction]]:
+        """The lists of numbers that were read, whose pointers end with a name."""
+        cited = (x for _, pointer, x in self.because if pointer.endswith(f"/{field}"))
+        read = ([*map(_rational, x)] for x in cited if isinstance(x, list))
+        return [[x for x in entries if x is not None] for entries in read]
 
     def named(self, *fields: str) -> list[Fraction]:
         """The numbers that were read, whose pointers end with one of some names."""
@@ -89,66 +102,88 @@ def wordings() -> dict[str, list[Part]]:
     return known
 
 
-def is_worded(text: str, template: Sequence[Part], known: Known) -> bool:
-    """Whether a template makes a text, with numbers that follow in its fields."""
+def left_open(text: str, template: Sequence[Part], known: Known) -> Places | None:
+    """The places of a text that are not compared; None if no template and numbers make the text.
+
+    Where a text can be read in several ways, the longest places that may be anything are told.
+    """
     spend(100 + 4 * len(template) * len(text))
-    return len(text) in _reached(template, text, {0}, known)
+    return _reached(template, text, {0: ()}, known).get(len(text))
 
 
-def _reached(template: Sequence[Part], text: str, places: set[int], known: Known) -> set[int]:
-    """Where the parts of a template end that begin at one of some places of a text."""
+def _reached(
+    template: Sequence[Part], text: str, places: dict[int, Places], known: Known
+) -> dict[int, Places]:
+    """Where the parts of a template end that begin at some places of a text, and what is open."""
     for part in template:
         if part == ["any"]:
-            places = {*range(min(places, default=len(text) + 1), len(text) + 1)}
+            first = min(places, default=len(text) + 1)
+            open_ = places.get(first, ())
+            ends = ((end, (*open_, (first, end))) for end in range(first + 1, len(text) + 1))
+            places = {first: open_, **dict(ends)} if places else {}
         elif part[0] == "maybe":
-            places = places | _reached(part[1:], text, places, known)
+            places = _reached(part[1:], text, places, known) | places
+        elif part[0] == "if":
+            inside = _reached(part[2:], text, places, known)
+            places = inside if known.cites(part[1]) else places
         else:
-            places = {end for place in places for end in _ends(part, text, place, known)}
+            places = {
+                end: open_ if compared else (*open_, (place, end))
+                for place, open_ in places.items()
+                for end, compared in _ends(part, text, place, known)
+            }
     return places
 
 
-def _ends(part: Part, text: str, place: int, known: Known) -> Iterator[int]:
+def _ends(part: Part, text: str, place: int, known: Known) -> Iterator[End]:
     """Where a part of a template ends that begins at a place of a text."""
     if isinstance(part, str):
-        yield from _phrases([part], text, place)
+        yield from _phrases([part], text, place, compared=True)
         return
     kind, words = part[0], part[1:]
-    if kind == "of":
-        yield from _phrases(words, text, place)
+    if kind in ("of", "agree"):
+        yield from _phrases(words, text, place, compared=kind == "agree")
     elif kind == "count":
         if whole := WHOLE.match(text, place):
             plural = "" if whole[0] == "1" else "s"
             yield from _phrases([f" {words[0]}{plural}"], text, whole.end())
     elif kind == "int":
         if whole := WHOLE.match(text, place):
-            yield whole.end()
+            yield whole.end(), False
     elif kind == "region":
         yield from _bounds(text, place, known)
+    elif kind == "diagonal":
+        yield from _diagonal(text, place, known.lists(words[0]))
     else:
         yield from _rounded(kind, text, place, known.of(words[0]))
 
 
-def _phrases(phrases: Iterable[str], text: str, place: int) -> Iterator[int]:
+def _phrases(
+    phrases: Iterable[str], text: str, place: int, *, compared: bool = False
+) -> Iterator[End]:
     """Where a phrase ends that begins here."""
-    yield from (place + len(each) for each in phrases if text.startswith(each, place))
+    for each in phrases:
+        if text.startswith(each, place):
+            yield place + len(each), compared or not each
 
 
-def _bounds(text: str, place: int, known: Known) -> Iterator[int]:
+def _bounds(text: str, place: int, known: Known) -> Iterator[End]:
     """Where bounds of eigenvalues end, such as ``Re λ < -1/10``, that a certificate has.
 
     Where the sentence cites none, the user asked for them, and they are not compared.
     """
-    cited, free = known.named("bound", *LIMITS), not known.cites("bound")
+    cited = known.named("bound", *LIMITS)
+    free = not any(pointer.endswith("/bound") for _, pointer, _ in known.because)
     while bound := BOUND.match(text, place):
         value, rate = _value(bound[2]), "Re" in bound[1]
         limits = [Fraction(0), *(-x for x in cited)] if rate else [Fraction(1), *cited]
         if value is None or not (free or any(_near(value, each) for each in limits)):
             return
         place = bound.end()
-        yield place
+        yield place, not free
 
 
-def _rounded(kind: str, text: str, place: int, known: list[Fraction]) -> Iterator[int]:
+def _rounded(kind: str, text: str, place: int, known: list[Fraction]) -> Iterator[End]:
     """Where a rounded number ends, if one that is known is rounded to it."""
     place += kind == "near" and text.startswith(ROUGHLY, place)
     shown = NUMBER.match(text, place)
@@ -158,7 +193,30 @@ def _rounded(kind: str, text: str, place: int, known: list[Fraction]) -> Iterato
     percent = kind.startswith("percent")
     value /= 100 if percent else 1
     if not known or any(ROUNDED[kind](value, each) for each in known):
-        yield from _phrases([" %" if percent else ""], text, shown.end())
+        unit = " %" if percent else ""
+        if text.startswith(unit, shown.end()):
+            yield shown.end() + len(unit), bool(known)
+
+
+def _diagonal(text: str, place: int, known: list[list[Fraction]]) -> Iterator[End]:
+    """Where a diagonal matrix ends, such as ``1/100 I``, that a certificate has.
+
+    Of a long one the first entries are shown.
+    """
+    shown = DIAGONAL.match(text, place)
+    if shown is None:
+        return
+    multiple, listed = shown[1] or "1", shown[2]
+    more = MORE.search(listed or "")
+    first = listed[: more.start()].split(", ") if listed and more else (listed or "").split(", ")
+    values = [_value(x.removeprefix(ROUGHLY)) for x in ([multiple] if listed is None else first)]
+    for entries in known:
+        number = len(entries) if listed is None else len(values) + int(more[1] if more else 0)
+        wanted = [*values, *values[:1] * (len(entries) - 1)] if listed is None else values
+        pairs = zip(wanted, entries, strict=False)
+        if number == len(entries) and all(x is not None and _near(x, y) for x, y in pairs):
+            yield shown.end(), True
+            return
 
 
 def _near(value: Fraction, x: Fraction) -> bool:

@@ -20,10 +20,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
 from importlib import resources
 from pathlib import Path
+from typing import Any
 
 import click
 
-from mcexact import checker
+from mcexact import __version__, checker
 from mcexact.checker.command import (
     FORMAT,
     UNWRITTEN,
@@ -37,6 +38,7 @@ from mcexact.checker.command import (
 from mcexact.checker.core.budget import Verdict
 from mcexact.checker.core.reading import Limits
 from mcexact.checker.kinds import Clock, Found, memory
+from mcexact.checker.page import Audit
 from mcexact.cli import options, verified
 from mcexact.cli.commands import INTERRUPTED
 from mcexact.cli.output import deliver, json_text
@@ -207,8 +209,9 @@ def command(
         if rocq is not None and not interrupted:
             _write_theorem(rocq, certificates[0], timeout)
         if html is not None and not interrupted:
-            inputs = {"plant": system, "controller": controller, "statement or claim": expect}
-            _write_page(html, judged, second, inputs, [*certificates], manifest)
+            last = line_of(judged[-1], named=named)
+            audit = {"files": certificates, "manifest": manifest, "asking": asking, "last": last}
+            _write_page(html, judged, system, audit | {"second": second})
     except NotWritten as error:
         if not error.reader_left:
             raise
@@ -306,35 +309,27 @@ def _require_page(page: Path | None, inputs: Sequence[str | None]) -> None:
 
 
 def _write_page(
-    page: Path,
-    judged: Sequence[Found],
-    second: Mapping[int, str],
-    inputs: Mapping[str, str | None],
-    certificates: list[str],
-    manifest: str | None,
+    page: Path, judged: Sequence[Found], plant: str | None, audit: Mapping[str, Any]
 ) -> None:
-    """Write the page of the audit, with the bytes of certificates as evidence."""
-    # The checker shall not need what writes pages.
-    from mcexact.cli.audit import audit_page, sentences_again
+    """Write the page of the audit; what the package makes of the certificates is beside it."""
+    # The checker shall not need what writes pages, nor what makes sentences.
+    from mcexact.cli.audit import sentences_again
     from mcexact.cli.files import write_result
 
-    asked = {words: path for words, path in inputs.items() if path is not None}
-    given = {"system": inputs["plant"], "controller": inputs["controller"], "manifest": manifest}
-    given["expect"] = inputs["statement or claim"]
-    pairs = ((f"--{name}", path) for name, path in given.items() if path is not None)
-    options_given = [word for pair in pairs for word in pair]
-    archive = hashlib.sha256(checker_archive()).hexdigest()
-    evidence: dict[str, tuple[str, bytes, Verdict]] = {}
+    evidence = list[tuple[str, bytes, Verdict]]()
     for about, verdict in judged:
         if "text" not in about and verdict.verdict != "COUNTED" and about["file"] != "-":
             with contextlib.suppress(OSError):
                 file = file_of(about)
-                evidence[about["file"]] = file, Path(file).read_bytes(), verdict
-    worded = sentences_again(evidence.values(), inputs["plant"])
-    called = [*certificates, *options_given]
-    made = audit_page(judged, second, called, archive, asked=asked, worded=worded)
-    texts = {name: data.decode("utf-8", "replace") for name, (_, data, _) in evidence.items()}
-    write_result(page, made.rendered(texts, {name: each for name, (*_, each) in evidence.items()}))
+                evidence.append((file, Path(file).read_bytes(), verdict))
+    archive = hashlib.sha256(checker_archive()).hexdigest()
+    made: dict[str, Any] = {
+        "archive": archive,
+        "program": f"mcexact {__version__}",
+        "status": status_of(judged),
+    }
+    worded = sentences_again(evidence, plant)
+    write_result(page, Audit.of(judged, **audit, **made, worded=worded).page())
 
 
 class _Progress:

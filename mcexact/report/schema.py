@@ -665,6 +665,7 @@ def check() -> Schema:
             "statement": TEXT,
             "statement_digest": TEXT,
             "summary": TEXT,
+            "left_open": rows(rows(WHOLE)),
             "system_digest": TEXT,
             "controller_digest": TEXT,
             "code": TEXT,

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from typing import Any, TextIO
 
 from mcexact.answer.account import LABELS, MODES, PROOFS, PROVED, Account
+from mcexact.answer.analysis import FIXED_MODE
 from mcexact.answer.sentence import Sentences
 from mcexact.answer.templates import Sentence
 from mcexact.errors import InputError, MissingExtra
@@ -118,7 +119,7 @@ def show(tables: Sequence[Table], stream: TextIO) -> None:
 # The account of a system as text: sentences and tables.
 
 _COLUMNS = {
-    "fixed-modes": ("factor", "roots, about", "stable", "in A", "fixed", "s", "rank"),
+    "fixed-modes": FIXED_MODE.columns,
     "pencil": ("factor of det(xI-A)", "rank", "below n"),
     "why": ("these agents", "can receive from", "need", "because of"),
 }

@@ -8,7 +8,7 @@ import pytest
 from mcexact.answer import listing
 from mcexact.checker.command import main
 from mcexact.checker.sentences import RULES
-from mcexact.checker.wording import Known, is_worded, known_numbers, wordings
+from mcexact.checker.wording import Known, known_numbers, left_open, wordings
 from tests.checker.manifests import manifest, sentence, write
 
 
@@ -43,6 +43,13 @@ def known(*numbers: str) -> Known:
             ["", " within 33.3 %"],
             [" within"],
         ),
+        (
+            ["if", "bound", " behind ω = ", ["near", "bound"]],
+            ["100"],
+            [" behind ω = 100"],
+            ["", " behind ω = 10"],
+        ),
+        (["if", "bound", " behind"], [], [""], [" behind"]),
     ],
     ids=lambda value: value[0] if isinstance(value, list) and value else None,
 )
@@ -51,13 +58,43 @@ def test_a_field_has_texts_of_its_kind(
 ) -> None:
     for text, wanted in [*((each, True) for each in good), *((each, False) for each in bad)]:
         template = ["a: ", part, " end"]
-        assert is_worded(f"a: {text} end", template, known(*numbers)) is wanted, text
-    assert not is_worded("b: ", ["a: ", part], known(*numbers))
+        told = left_open(f"a: {text} end", template, known(*numbers))
+        assert (told is not None) is wanted, text
+    assert left_open("b: ", ["a: ", part], known(*numbers)) is None
+
+
+@pytest.mark.parametrize(
+    ("entries", "good", "bad"),
+    [
+        ([1, 1, 1], ["I", "1 I", "diag(1, 1, 1)"], ["2 I", "diag(1, 1)", "diag(1, 1, 2)", "Ix"]),
+        (["1/100", "1/100"], ["1/100 I", "0.01 I"], ["I", "1/10 I", "x I", "diag(1/100)"]),
+        ([1, 2], ["diag(1, 2)"], ["I", "diag(2, 1)", "diag()", "diag(1, )"]),
+        ([*range(9)], ["diag(0, 1, 2, 6 more)"], ["diag(0, 1, 2, 5 more)"]),
+        (None, [], ["I", "diag(1)"]),
+    ],
+)
+def test_weights_are_those_of_the_certificate(
+    entries: object, good: list[str], bad: list[str]
+) -> None:
+    read = Known([["a", "/claim/weights/states", entries]], [])
+    for text, wanted in [*((each, ()) for each in good), *((each, None) for each in bad)]:
+        assert left_open(text, [["diagonal", "states"]], read) == wanted, text
+
+
+def test_the_places_of_what_is_not_compared_are_told() -> None:
+    template = ["modes: ", ["any"], " (", ["of", "yes", "no"], "), ", ["count", "state"], ["int"]]
+    text = "modes: x - 1 (no), 3 states7"
+    places = left_open(text, template, known())
+    assert [text[a:b] for a, b in places or ()] == ["x - 1", "no", "3 states", "7"]
+    assert left_open("modes: ", ["modes: ", ["any"]], known()) == ()
+    assert left_open("ab", ["a", ["of", "", "b"]], known()) == ((1, 2),)
+    assert left_open("a", ["a", ["of", "", "b"]], known()) == ()
+    assert left_open("are", [["agree", "is", "are"]], known()) == ()
 
 
 def test_a_number_longer_than_any_that_is_shown_is_not_compared() -> None:
     long = "0." + "6" * 500
-    assert not is_worded(long, [["below", "a"]], known("2/3"))
+    assert left_open(long, [["below", "a"]], known("2/3")) is None
 
 
 def test_a_number_is_known_by_its_name_and_from_what_follows() -> None:
@@ -72,8 +109,8 @@ def test_a_number_is_known_by_its_name_and_from_what_follows() -> None:
     assert known_numbers([["a", "/claim/margin", True]], "7").of("margin") == [7]
     steps = known_numbers([["a", "/subject/0/step", "7/40"], ["b", "/subject/0/step", 15]], "15")
     assert steps.of("step") == [Fraction(7, 40), 15]
-    assert is_worded("7", [["below", "a"]], known())
-    assert is_worded("Re x < -5", [["region"]], known_numbers([], "2"))
+    assert left_open("7", [["below", "a"]], known()) == ((0, 1),)
+    assert left_open("Re x < -5", [["region"]], known_numbers([], "2")) == ((0, 9),)
 
 
 def test_every_rule_has_the_template_of_its_sentences() -> None:

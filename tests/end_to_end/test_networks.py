@@ -45,7 +45,7 @@ def test_both_orders_are_in_the_output(folder, tmp_path):
     told = designed(
         folder, "extended", plant, "--spectrum", str(spectrum), "-o", str(tmp_path / "c.json")
     ).stdout
-    assert re.search(r"paper's observer +11\n", told)
+    assert re.search(r"an observer instead +11\n", told)
     answer = json.loads(
         designed(folder, "extended", plant, "--spectrum", str(spectrum), "--json").stdout
     )

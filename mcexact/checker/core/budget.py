@@ -78,6 +78,8 @@ class Verdict:
     summary : str
         What it says in one line, without all that its words mean; of a sentence what follows from
         its premises.
+    left_open : tuple of pairs of int
+        Where words of a sentence begin and end that were not compared with what follows.
     system_digest : str
         The SHA-256 of the certificate's plant; empty if it could not be read.
     controller_digest : str
@@ -93,6 +95,7 @@ class Verdict:
     statement: str = ""
     statement_digest: str = ""
     summary: str = ""
+    left_open: tuple[tuple[int, int], ...] = ()
     system_digest: str = ""
     controller_digest: str = ""
     code: str = ""
