@@ -28,7 +28,7 @@ TIME_VARYING = Template(
 )
 NO_CAUSAL = Template(
     "no-causal-control",
-    "Time-varying or nonlinear {control:causal} cannot stabilize it either, if it is causal.",
+    "No time-varying or nonlinear causal {control:causal} can stabilize it.",
     _NECESSARY,
 )
 OPTION = Template(

@@ -20,7 +20,7 @@ from .kinds import Found
 
 ARCHIVE = "mcexact-checker.pyz"
 ATTESTED = (
-    "I ran the checker as it says above, on the files of the table “What was checked”. It wrote "
+    "I ran the checker as it says above, on the files of the table 'What was checked'. It wrote "
     "this page. In each sentence I compared the marked words with what follows beside it, or with "
     "the whole statements below."
 )
@@ -31,7 +31,7 @@ SENTENCES = (
     "manifest. The checker compared its words with those of its rule, and its costs, weights, "
     "margins, distances, rates and steps with the certificates. It did not compare the marked "
     "words: yes or no and other choices, modes, names, whole numbers. Compare them yourself. A "
-    "REMARK claims nothing. What else a report says, such as “worth installing” or what it calls "
+    "REMARK claims nothing. What else a report says, such as 'worth installing' or what it calls "
     "computed and not certified, is not covered by this page."
 )
 STYLE = """

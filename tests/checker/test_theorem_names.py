@@ -28,6 +28,7 @@ NO_RULE = {
     "reading",
     "summaries",
     "controllers",
+    "page",
     "wording",
 }
 NO_RULE |= {stem for stem in STEMS if stem.startswith("sentences")}
