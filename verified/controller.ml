@@ -20,28 +20,8 @@ let number place value =
 
 (* A matrix of this size; None if it is zero. *)
 let read_matrix place nrows ncols value =
-  let sized r c = if (r, c) <> (nrows, ncols) then malformed place "expected another shape" in
-  let rows = match value with
-    | Json.Object _ ->
-      (match Json.fields place [ "shape"; "entries" ] value with
-       | [ shape; entries ] ->
-         (match List.map (Json.small place) (Json.items ~length:2 place shape) with [ r; c ] -> sized r c | _ -> assert false);
-         let cells = Array.make_matrix nrows ncols None in
-         List.iter (fun triple -> match Json.items ~length:3 place triple with
-             | [ i; j; x ] ->
-               let i = Json.small place i and j = Json.small place j in
-               if i >= nrows || j >= ncols || cells.(i).(j) <> None then malformed place "expected a position of its own";
-               cells.(i).(j) <- Some (number place x)
-             | _ -> assert false) (Json.items place entries);
-         List.map (fun row -> List.map (Option.value ~default:Q.zero) (Array.to_list row)) (Array.to_list cells)
-       | _ -> assert false)
-    | _ ->
-      let rows = List.map (fun row -> List.map (number place) (Json.items place row)) (Json.items place value) in
-      let width = match rows with [] -> ncols | row :: _ -> List.length row in
-      if List.exists (fun row -> List.length row <> width) rows then malformed place "expected rows of one length";
-      sized (List.length rows) width;
-      rows in
-  if List.for_all (List.for_all (fun x -> Q.sign x = 0)) rows then None else Some rows
+  let _, m = Plant.read_any ~shape:(nrows, ncols) ~ordered:false number place value in
+  if List.for_all (List.for_all (fun x -> Q.sign x = 0)) m.Plant.rows then None else Some m.Plant.rows
 
 (* Entries by some of the names, in the order of the system. *)
 let by_name place known value =

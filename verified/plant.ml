@@ -11,38 +11,52 @@ let longest = 1 lsl 20
 (* Large matrices of few entries are listed by entries, and no others are, but those without rows. *)
 let is_listed nrows ncols count = nrows * ncols >= 2048 && 8 * count <= nrows * ncols
 
-let read_entries place value =
-  match Json.fields place [ "shape"; "entries" ] value with
-  | [ shape; entries ] ->
-    let nrows, ncols = match List.map (Json.small place) (Json.items ~length:2 place shape) with [ r; c ] -> (r, c) | _ -> assert false in
-    if max nrows ncols > longest then incomplete place "too large";
-    if nrows * ncols > 100_000_000 then incomplete place "too large";
-    let cells = Array.make_matrix nrows ncols Q.zero and last = ref (-1, -1) in
-    let entries = Json.items place entries in
-    List.iter (fun triple ->
-        match Json.items ~length:3 place triple with
-        | [ i; j; x ] ->
-          let i = Json.small place i and j = Json.small place j and x = Json.rational place x in
-          if i >= nrows || j >= ncols || (i, j) <= !last || Q.sign x = 0 then malformed place "expected the canonical form";
-          last := (i, j);
-          cells.(i).(j) <- x
-        | _ -> assert false) entries;
-    (List.length entries, { nrows; ncols; rows = Array.to_list (Array.map Array.to_list cells) })
-  | _ -> assert false
-
-let read_matrix place value =
+(* A matrix by rows, or by its shape and entries, each position once; None instead of a number of entries if by rows.
+   Entries of plants are `ordered`, and none is 0; controllers know the `shape` that is expected. *)
+let read_any ?shape ~ordered number place value =
+  let sized r c = match shape with Some expected when expected <> (r, c) -> malformed place "expected another shape" | _ -> () in
   match value with
   | Json.Object _ ->
-    let count, m = read_entries place value in
-    if not (is_listed m.nrows m.ncols count || (m.nrows = 0 && m.ncols > 0)) then malformed place "expected the canonical form";
-    m
+    (match Json.fields place [ "shape"; "entries" ] value with
+     | [ size; entries ] ->
+       let nrows, ncols = match List.map (Json.small place) (Json.items ~length:2 place size) with [ r; c ] -> (r, c) | _ -> assert false in
+       sized nrows ncols;
+       if max nrows ncols > longest then incomplete place "too large";
+       if nrows * ncols > 100_000_000 then incomplete place "too large";
+       let cells = Array.make_matrix nrows ncols None and last = ref (-1, -1) in
+       let entries = Json.items place entries in
+       List.iter (fun triple ->
+           match Json.items ~length:3 place triple with
+           | [ i; j; x ] ->
+             let i = Json.small place i and j = Json.small place j in
+             if i >= nrows || j >= ncols || cells.(i).(j) <> None then malformed place "expected a position of its own";
+             let x = number place x in
+             if ordered && ((i, j) <= !last || Q.sign x = 0) then malformed place "expected the canonical form";
+             last := (i, j);
+             cells.(i).(j) <- Some x
+           | _ -> assert false) entries;
+       let rows = Array.map (fun row -> List.map (Option.value ~default:Q.zero) (Array.to_list row)) cells in
+       (Some (List.length entries), { nrows; ncols; rows = Array.to_list rows })
+     | _ -> assert false)
   | _ ->
-    let rows = List.map (fun row -> List.map (Json.rational place) (Json.items place row)) (Json.items place value) in
-    let nrows = List.length rows and ncols = match rows with [] -> 0 | row :: _ -> List.length row in
+    let rows = List.map (fun row -> List.map (number place) (Json.items place row)) (Json.items place value) in
+    let nrows = List.length rows
+    and ncols = match rows, shape with row :: _, _ -> List.length row | [], Some (_, c) -> c | [], None -> 0 in
     if List.exists (fun row -> List.length row <> ncols) rows then malformed place "expected rows of one length";
-    let count = List.fold_left (fun acc row -> acc + List.length (List.filter (fun x -> Q.sign x <> 0) row)) 0 rows in
-    if is_listed nrows ncols count then malformed place "expected the canonical form";
-    { nrows; ncols; rows }
+    sized nrows ncols;
+    (None, { nrows; ncols; rows })
+
+let read_entries place value = match read_any ~ordered:true Json.rational place value with
+  | Some count, m -> (count, m) | None, _ -> malformed place "expected a shape and entries"
+
+let read_matrix place value =
+  let entries, m = read_any ~ordered:true Json.rational place value in
+  let nonzero row = List.length (List.filter (fun x -> Q.sign x <> 0) row) in
+  let canonical = match entries with
+    | Some count -> is_listed m.nrows m.ncols count || (m.nrows = 0 && m.ncols > 0)
+    | None -> not (is_listed m.nrows m.ncols (List.fold_left (fun sum row -> sum + nonzero row) 0 m.rows)) in
+  if not canonical then malformed place "expected the canonical form";
+  m
 
 (* Names that are not ASCII have normal forms, which are not computed here. *)
 let read_name place value =

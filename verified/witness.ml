@@ -302,6 +302,7 @@ let fixed_spectrum (s : Kernel.zsystem) known (claim : Kernel.zclaim) value =
           | [ b; c ] -> (residues_over ell (matrix "witness.completion.B0" n rho b), residues_over ell (matrix "witness.completion.C0" rho n c))
           | _ -> assert false in
         let w, chi = with_polynomial s ell gains in
+        let completed = Hashtbl.create 4 in
         let bounds f =
           let p = f.Kernel.f_p and d = n - f.Kernel.f_rank in
           let inv = Modular.inverse ell (Modular.lead p) in
@@ -315,8 +316,12 @@ let fixed_spectrum (s : Kernel.zsystem) known (claim : Kernel.zclaim) value =
           let take k l = List.filteri (fun i _ -> i < k) l in
           let b = List.map (take d) b0 and c = take d c0 in
           let start = { Kernel.lw_loop = w; lw_B0 = b; lw_C0 = c; lw_inv = inv; lw_u = []; lw_v = [] } in
-          let similar = Modular.hessenberg ell (Kernel.completed s start) in
-          let u, v = Modular.bezout ell p (Modular.characteristic ell n similar) in
+          if not (Hashtbl.mem completed d) then begin
+            let similar = Modular.hessenberg ell (Kernel.completed s start) in
+            Hashtbl.add completed d (similar, Modular.characteristic ell n similar)
+          end;
+          let similar, polynomial = Hashtbl.find completed d in
+          let u, v = Modular.bezout ell p polynomial in
           let low = add run (Kernel.RLow ([], p, d, { start with Kernel.lw_loop = { w with Kernel.w_similar = similar }; lw_u = u; lw_v = v })) in
           (most, low) in
         let ys = each ell false bounds factors spaces in
