@@ -50,6 +50,14 @@ figures mean for larger plants, and [LARGEST_COSTS.md](LARGEST_COSTS.md) what ta
 of its time.
 """
 
+without = fixed_spectrum.without_fixed_mode
+SECOND = (
+    ("no fixed mode", without, 0, (4, 60, 200, 500, 1000)),
+    ("planted fixed mode", fixed_spectrum.planted, 0, (4, 60)),
+    ("chains with a fixed mode", every_question.chains, 2, (200, 500, 1000)),
+)
+"""Plants of the second checker.  By gains it reads fixed modes of at most 60 states."""
+
 PARTS: Mapping[str, Callable[[], Iterator[Row]]] = {
     **{
         f"absence {n} states {digits} digits": partial(fixed_spectrum.absence_rows, n, digits)
@@ -61,10 +69,10 @@ PARTS: Mapping[str, Callable[[], Iterator[Row]]] = {
         for n, limit in ((500, 0.5), (1000, 2), (2000, 15))
     },
     **{
-        f"second checker {n} states{' with a fixed mode' * planted}": partial(
-            fixed_spectrum.second_rows, n, planted
+        f"second checker {n} states{' with a fixed mode' * (make != without)}": partial(
+            fixed_spectrum.second_rows, plant, partial(make, n + added)
         )
-        for planted, sizes in ((False, (4, 60, 200, 500, 1000)), (True, (4, 60, 200)))
+        for plant, make, added, sizes in SECOND
         for n in sizes
     },
     **{

@@ -10,7 +10,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
@@ -18,7 +18,7 @@ from typing import Any
 
 import mcexact
 from benchmarks.fixed_spectrum import Row
-from benchmarks.measure import processor_seconds
+from benchmarks.measure import in_turns, processor_seconds
 from mcexact import (
     assignability,
     completeness,
@@ -151,10 +151,10 @@ def hidden_rows() -> Iterator[Row]:
     for n in HIDDEN:
         m = n // 10
         make = partial(hidden_plant, n, m)
-        found, written, checked, verdict, size = _once(make)
-        detail = f"found {found:.3f} s, written {written:.3f} s, {size / 1000:.0f} kB, {verdict}"
+        turn = _turn(make, fixed_spectrum)
+        good = turn.verdict == "VALID" and turn.checked <= 10
         name = f"hidden decentralized fixed mode, n={n}, m={m}, fixed spectrum, checked"
-        yield Row(name, checked, "<= 10 s", verdict == "VALID" and checked <= 10, detail, "s")
+        yield Row(name, turn.checked, "<= 10 s", good, turn.detail(), "s")
 
 
 Plant = Callable[[], MultiChannelSystem]
@@ -176,34 +176,32 @@ def _rows(
     asked = {name: (make, decide) for name, decide in QUESTIONS.items()}
     if compared:
         asked = {_WITHOUT: (compared, fixed_spectrum), **asked}
-    turns: dict[str, list[_Turn]] = {name: [] for name in asked}
     left_open: dict[str, LimitReached] = {}
-    for _ in range(runs):
-        for name, (build, decide) in asked.items():
-            if name in left_open:
-                continue
+
+    def turn(name: str) -> _Turn | None:
+        if name not in left_open:
             try:
-                turns[name].append(_turn(build, decide))
+                return _turn(*asked[name])
             except LimitReached as reached:
                 left_open[name] = reached
+        return None
+
+    turns = in_turns({name: partial(turn, name) for name in asked}, runs=runs)
     largest, first = 0.0, 0.0
     for name in asked:
         if name in left_open:
             detail = f"left open: {left_open[name]}"[:120]
             yield Row(f"{plant}, {name}", 0.0, "reported", True, detail, "s")
             continue
-        found, written, checked = _medians(turns[name])
-        verdict, size = turns[name][-1].verdict, turns[name][-1].size
+        median = _median([each for each in turns[name] if each])
+        checked, verdict = median.checked, median.verdict
         first = first or checked
         if name == _WITHOUT:
             yield Row(f"{plant}, {name}", checked, "reported", verdict == "VALID", "", "s")
             continue
         largest = max(largest, checked / first)
         good = verdict == "VALID" and (limit is None or checked <= limit)
-        detail = (
-            f"found {found:.3f} s, written {written:.3f} s, {size / 1000:.0f} kB, {verdict}, "
-            f"{checked / first:.2f} times the first check"
-        )
+        detail = f"{median.detail()}, {checked / first:.2f} times the first check"
         said = "reported" if limit is None else f"<= {limit:g} s"
         yield Row(f"{plant}, {name}, checked", checked, said, good, detail, "s")
     good = ratio is None or largest <= ratio
@@ -215,9 +213,17 @@ def _rows(
 class _Turn:
     """Seconds to find, write and check an answer, the verdict, and the bytes of the certificate."""
 
-    seconds: tuple[float, float, float]
+    found: float
+    written: float
+    checked: float
     verdict: str
     size: int
+
+    def detail(self) -> str:
+        return (
+            f"found {self.found:.3f} s, written {self.written:.3f} s, "
+            f"{self.size / 1000:.0f} kB, {self.verdict}"
+        )
 
 
 def _turn(make: Plant, decide: Callable[[MultiChannelSystem], Any]) -> _Turn:
@@ -230,17 +236,16 @@ def _turn(make: Plant, decide: Callable[[MultiChannelSystem], Any]) -> _Turn:
     verdict = check_document(data).verdict
     times.append(processor_seconds())
     found, written, checked = (b - a for a, b in itertools.pairwise(times))
-    return _Turn((found, written, checked), verdict, len(data))
+    return _Turn(found, written, checked, verdict, len(data))
 
 
-def _medians(turns: list[_Turn]) -> list[float]:
-    return [statistics.median(each) for each in zip(*(t.seconds for t in turns), strict=True)]
-
-
-def _once(make: Plant) -> tuple[float, float, float, str, int]:
-    """The fixed spectrum of a plant: seconds to find, write and check, the verdict, the bytes."""
-    turn = _turn(make, fixed_spectrum)
-    return *turn.seconds, turn.verdict, turn.size
+def _median(turns: list[_Turn]) -> _Turn:
+    """The last turn, with the medians of the seconds."""
+    medians = {
+        name: statistics.median(getattr(turn, name) for turn in turns)
+        for name in ("found", "written", "checked")
+    }
+    return replace(turns[-1], **medians)
 
 
 def whole_rows(n: int) -> Iterator[Row]:
@@ -273,10 +278,10 @@ def _whole(n: int, m: int) -> tuple[float, int, int]:
 def chain_rows() -> Iterator[Row]:
     """Chains of fractions in a row, with two states between them that no channel moves."""
     for n in (400, 600, 800, 2000, 10_000):
-        found, written, checked, verdict, size = _once(partial(chains, n))
-        good = verdict == "VALID" and found <= 5 and checked <= 5
-        detail = f"found {found:.3f} s, written {written:.3f} s, {size / 1000:.0f} kB, {verdict}"
-        yield Row(f"chains with a fixed mode, n={n}, m=20", checked, "<= 5 s", good, detail, "s")
+        turn = _turn(partial(chains, n), fixed_spectrum)
+        good = turn.verdict == "VALID" and turn.found <= 5 and turn.checked <= 5
+        name = f"chains with a fixed mode, n={n}, m=20"
+        yield Row(name, turn.checked, "<= 5 s", good, turn.detail(), "s")
 
 
 def chains(n: int, m: int = 20) -> MultiChannelSystem:

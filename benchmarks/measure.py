@@ -7,6 +7,10 @@ import resource
 import statistics
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
+from typing import TypeVar
+
+Result = TypeVar("Result")
 
 
 @dataclass(frozen=True)
@@ -28,10 +32,22 @@ def processor_seconds() -> float:
     return sum(each.ru_utime + each.ru_stime for each in used)
 
 
+def in_turns(
+    contenders: Mapping[str, Callable[[], Result]], *, runs: int
+) -> dict[str, list[Result]]:
+    """What the contenders return, run A B C A B C …: a drift of the machine meets all of them."""
+    results: dict[str, list[Result]] = {name: [] for name in contenders}
+    for _ in range(runs):
+        for name, run in contenders.items():
+            gc.collect()
+            results[name].append(run())
+    return results
+
+
 def interleaved(
     contenders: Mapping[str, Callable[[], object]], *, runs: int = 5, warmup: int = 1
 ) -> dict[str, Timing]:
-    """Run the contenders A B C A B C …, so that a drift of the machine meets all of them.
+    """Time the contenders `in_turns`.
 
     Parameters
     ----------
@@ -42,13 +58,12 @@ def interleaved(
     warmup : int
         Runs before, not counted.
     """
-    seconds: dict[str, list[float]] = {name: [] for name in contenders}
-    for turn in range(warmup + runs):
-        for name, run in contenders.items():
-            gc.collect()
-            start = processor_seconds()
-            run()
-            elapsed = processor_seconds() - start
-            if turn >= warmup:
-                seconds[name].append(elapsed)
-    return {name: Timing(name, tuple(values)) for name, values in seconds.items()}
+
+    def seconds(run: Callable[[], object]) -> float:
+        start = processor_seconds()
+        run()
+        return processor_seconds() - start
+
+    timed = {name: partial(seconds, run) for name, run in contenders.items()}
+    turns = in_turns(timed, runs=warmup + runs)
+    return {name: Timing(name, tuple(values[warmup:])) for name, values in turns.items()}
