@@ -24,8 +24,9 @@ from mcexact.answer.templates import Template
 from mcexact.derived.sampling import is_sampled
 from mcexact.errors import Impossible, InternalError
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.roots import LIMITS, StabilityRegion, steady_point
+from mcexact.model.signals import signals_in_words
 from mcexact.plot.eigenvalues import eigenvalues
 
 # Answer: whether all eigenvalues of a matrix meet a rate or a radius.
@@ -220,6 +221,9 @@ NETWORK = Template("design-network", "{kind:network}; closed loop certified")
 SETPOINT = Template(
     "design-setpoint", "set-point controller ({method:method}); closed loop certified"
 )
+TRACKING = Template(
+    "design-tracking", "tracking controller ({method:method}); closed loop certified"
+)
 CARRIER = Template(
     "design-carrier",
     "{agent:name}, of order {order:int}",
@@ -234,6 +238,11 @@ ORDER = Template("design-order", "{order:int}", label="states of all agents toge
 ORDER_INTEGRATORS = Template(
     "design-order-integrators",
     "{order:int}, integrators included",
+    label="states of all agents together",
+)
+ORDER_MODELS = Template(
+    "design-order-models",
+    "{order:int}, models of signals included",
     label="states of all agents together",
 )
 FEEDBACK = Template("design-feedback", "{p:polynomial}", label="spectrum of A + sum B_i F_i")
@@ -259,6 +268,13 @@ STEADY_REGULATED = Template(
     "the plant, is constant",
     "B. A. Francis and W. M. Wonham 1976",
     "regulated outputs",
+)
+STEADY_SIGNALS = Template(
+    "design-steady-signals",
+    "{held:regulated}: each follows its reference with an error that tends to 0 if every "
+    "reference, and every disturbance of the plant, is a sum of {signals:words}",
+    "B. A. Francis and W. M. Wonham 1976",
+    "outputs that follow",
 )
 MEASURED = Template("design-measured", "computed in floating point, not certified", claims=False)
 
@@ -428,11 +444,15 @@ def _failing_plant(failing_loop: Claim, loop: Claim, context: Context) -> Said:
 # Designs.
 
 
-@design_rule("title", OBSERVER, OBSERVER_FLOAT, NETWORK, SETPOINT, LOOP, premises=("loop",))
+@design_rule(
+    "title", OBSERVER, OBSERVER_FLOAT, NETWORK, SETPOINT, TRACKING, LOOP, premises=("loop",)
+)
 def _title(loop: Claim, context: Context) -> Said:
     """The heading of a design; without a certified region there is no other sentence."""
     if not inside(loop, context.region):
         yield LOOP()
+    elif context.has("followed"):
+        yield TRACKING(method=context.method)
     elif context.has("solvability"):
         yield SETPOINT(method=context.method)
     elif context.method == "observer":
@@ -442,10 +462,10 @@ def _title(loop: Claim, context: Context) -> Said:
         yield NETWORK(kind=context.network if shares else "without")
 
 
-@design_rule("table", ORDER, ORDER_INTEGRATORS)
+@design_rule("table", ORDER, ORDER_INTEGRATORS, ORDER_MODELS)
 def _order(context: Context) -> Said:
     template = ORDER_INTEGRATORS if context.has("solvability") else ORDER
-    yield template(order=context.order)
+    yield (ORDER_MODELS if context.has("followed") else template)(order=context.order)
 
 
 @design_rule("table", OBSERVER_ORDER)
@@ -513,9 +533,12 @@ def _unstable(stability: Claim, context: Context) -> Said:
         yield OUTSIDE(region=context.region)
 
 
-@design_rule("table", STEADY, STEADY_REGULATED, premises=("loop",))
+@design_rule("table", STEADY, STEADY_REGULATED, STEADY_SIGNALS, premises=("loop",))
 def _steady(loop: Claim, context: Context) -> Said:
-    if context.has("solvability") and inside(loop, context.region):
+    if context.has("followed") and inside(loop, context.region):
+        words = signals_in_words(context.followed, context.time)
+        yield STEADY_SIGNALS(held=context.held, signals=words)
+    elif context.has("solvability") and inside(loop, context.region):
         if context.held is None:
             yield STEADY()
         else:
@@ -693,6 +716,28 @@ INTEGRATORS_FIXED = Template(
     "evidence.shrunk_subspace_fixed_dynamic",
 )
 
+MODELS_UNREACHED = {
+    verb: Template(
+        f"refused-models-{verb}",
+        "the plant with models of these signals has {p:modes}, which all channels together do "
+        "not " + verb,
+        "controllability.uncontrollable_modes",
+    )
+    for verb in ("control", "observe")
+}
+MODELS_ALONE = Template(
+    "refused-models-alone",
+    "no linear time-invariant decentralized control of the plant with models of these signals "
+    "moves {p:modes}",
+    "evidence.shrunk_subspace_fixed_dynamic",
+)
+MODELS_FIXED = Template(
+    "refused-models-fixed",
+    "no linear time-invariant distributed control of the plant with models of these signals moves "
+    "{p:modes}, however many states are shared",
+    "evidence.shrunk_subspace_fixed_dynamic",
+)
+
 
 # Rules of refusals, which read the certificate of the refusal.
 
@@ -730,6 +775,7 @@ def refusal(place: str, answer: Answer, **asked: Any) -> Impossible:
     *UNREACHED.values(),
     NOT_OBSERVABLE,
     *INTEGRATORS_UNREACHED.values(),
+    *MODELS_UNREACHED.values(),
     premises=("controllability",),
 )
 def _unreached(controllability: Claim, context: Context) -> Said:
@@ -759,10 +805,19 @@ def _fixed(fixed_spectrum: Claim, context: Context) -> Said:
             return
 
 
-@refusal_rule("integrators", INTEGRATORS_FIXED, premises=("fixed_spectrum",))
+@refusal_rule("models", MODELS_ALONE, premises=("fixed_spectrum",))
+def _models_alone(fixed_spectrum: Claim, context: Context) -> Said:
+    """The fixed modes outside of the region, of the plant or of the signals."""
+    moved = [factor.polynomial for factor in fixed_spectrum.factors.separately()]
+    outside = [p for p in moved if not context.region.contains_roots_of(p)]
+    if outside:
+        yield MODELS_ALONE(p=product(outside))
+
+
+@refusal_rule("integrators", INTEGRATORS_FIXED, MODELS_FIXED, premises=("fixed_spectrum",))
 def _integrators_fixed(fixed_spectrum: Claim, context: Context) -> Said:
     if fixed_spectrum.polynomial.degree:
-        yield INTEGRATORS_FIXED(p=fixed_spectrum.polynomial)
+        yield context.template(p=fixed_spectrum.polynomial)
 
 
 @refusal_rule(

@@ -19,9 +19,10 @@ from .controllers import MAPS
 from .core import budget
 from .core.reading import Json, polynomial
 from .core.roots import in_stability_region
-from .core.system import System, counted, quoted, read_matrix, read_radii
+from .core.system import System, counted, polynomial_text, quoted, read_matrix, read_radii
 from .discs import Pair, pairs_of
 from .kinds import same
+from .parametric_system import common_divisor
 from .sentences import (
     ANOTHER_STEP,
     AT_SAMPLES,
@@ -49,9 +50,12 @@ UNCONTROLLABLE = "controllability.uncontrollable_modes"
 NO_FIXED = "extended_bound.extended_no_fixed, extended_bound.extended_states_no_fixed"
 
 
+MODELS = ("integrators", "servo", "internal_model")
+
+
 def behind(*paths: Path) -> tuple[Path, ...]:
-    """These ways to make a subject, from the plant or from the plant with integrators."""
-    return (*paths, *((first, *path) for first in ("integrators", "servo") for path in paths))
+    """These ways to make a subject, from the plant or from the plant with integrators or models."""
+    return (*paths, *((first, *path) for first in MODELS for path in paths))
 
 
 CLOSED: tuple[Path, ...] = (("closed_loop",),)
@@ -83,7 +87,10 @@ def controlled(loop: Premise) -> System:
     return read_subject(loop.document["subject"][:-1], loop.plant)
 
 
-@rule("design-carrier design-carrier-for design-order design-order-integrators design-shared")
+@rule(
+    "design-carrier design-carrier-for design-order design-order-integrators design-order-models "
+    "design-shared"
+)
 def _sizes(known: list[Premise]) -> str:
     """How many states each agent has, shared and of its own."""
     loop, agents = controller(known)
@@ -166,7 +173,7 @@ def decays(loop: Premise) -> str:
     return f"{loop.statement}; every eigenvalue has {stable}"
 
 
-CERTIFIED = "design-observer design-observer-float design-network design-setpoint"
+CERTIFIED = "design-observer design-observer-float design-network design-setpoint design-tracking"
 restate(CERTIFIED, LOOP, _is_stable, words=decays)
 BOUNDED = Role(("stability", "distributed_observer"), CLOSED)
 restate("design-region", BOUNDED, lambda c: _is_stable(c) and c["bound"] is not None)
@@ -224,6 +231,58 @@ def _steady_regulated(loop: Premise) -> str:
     loop.expect(bool(held), "no agent integrates outputs less set-points")
     which = f"these combinations of the outputs of agents, {'; '.join(held)}"
     return f"{loop.about}: {which}, tend to those of the set-points if {CONSTANT}"
+
+
+@rule("design-steady-signals", LOOP, theorem="B. A. Francis and W. M. Wonham 1976")
+def _steady_signals(loop: Premise) -> str:
+    """The loop is stable, and agents have models of signals behind output less reference.
+
+    With all that enters a solution of p the loop has one trajectory of solutions of p; in it what
+    drives a model of a multiple of p is 0 (``proofs/internal_model.md``).
+    """
+    loop.expect(_is_stable(loop), "the loop is not stable")
+    _, agents = controller([loop])
+    system, held, common = controlled(loop), [], list[Fraction]()
+    for i, agent in enumerate(agents):
+        models = models_of(system, i, agent)
+        rows = [f"({', '.join(map(str, row))})" for row, _ in models]
+        held += [f"{quoted(agent['name'])}: {', '.join(rows)}"] if rows else []
+        for _, p in models:
+            common = common_divisor(common, p) if common else p
+    loop.expect(len(common) > 1, "the agents have no models of the same signals")
+    which = f"these combinations of the outputs of agents, {'; '.join(held)}"
+    return (
+        f"{loop.about}: {which}, differ from those of the references by what tends to 0 if every "
+        "reference, and every disturbance of the plant, is a solution of "
+        f"{polynomial_text(common)}"
+    )
+
+
+def models_of(system: System, i: int, agent: Json) -> list[tuple[list[Fraction], list[Fraction]]]:
+    """The s and p such that agent i has states z_1, …, z_d with p(d/dt) z_1 = s (y − r).
+
+    These are z_k' = z_{k+1} for k < d, and z_d' = s (y − r) less combinations of them; with next
+    values in place of derivatives in discrete time.
+    """
+    update, k, q = signals(agent["private_update"]), agent["private"], system.C[i].nrows
+    own = update.pop(("outputs", system.names[i]), [[Fraction(0)] * q] * k)
+    reference = update.pop(("reference", ""), [[Fraction(0)] * q] * k)
+    inner = update.pop(("private", ""), [[Fraction(0)] * k] * k)
+    alone = [z for z in range(k) if not any(any(M[z]) for M in update.values())]
+    before = dict[int, int]()
+    for z in alone:
+        used = [j for j, x in enumerate(inner[z]) if x]
+        if not any(own[z]) and not any(reference[z]) and len(used) == 1 and inner[z][used[0]] == 1:
+            before.setdefault(used[0], z)
+    found = []
+    for last in alone:
+        chain, needed = [last], {j for j, x in enumerate(inner[last]) if x}
+        while chain[0] in before and before[chain[0]] not in chain:
+            chain.insert(0, before[chain[0]])
+        difference = own[last] == [-entry for entry in reference[last]]
+        if difference and any(own[last]) and needed <= {*chain}:
+            found.append((own[last], [*(-inner[last][j] for j in chain), Fraction(1)]))
+    return found
 
 
 CONSTANT = "every set-point, and every disturbance of the plant, is constant"
@@ -337,6 +396,8 @@ lost("refused-not-controllable refused-not-controllable-in refused-uncontrollabl
 lost("refused-unobservable refused-not-observable", *behind(("dual",)))
 lost("refused-integrators-control", ("integrators",), ("servo",))
 lost("refused-integrators-observe", ("integrators", "dual"), ("servo", "dual"))
+lost("refused-models-control", ("internal_model",))
+lost("refused-models-observe", ("internal_model", "dual"))
 ERRORS, CONVERSE = behind(("error",)), "free_assignment.corfmat_morse_converse"
 INCOMPLETE = Role(("completeness",), ERRORS)
 restate("refused-errors-not-complete", INCOMPLETE, lambda c: not c["complete"], CONVERSE)
@@ -359,6 +420,8 @@ stuck("refused-fixed-shared", *behind(*NETWORKS))
 stuck("refused-errors-fixed", *ERRORS)
 SHARED_INTEGRATORS = (("integrators", "extended"), ("servo", "extended"))
 stuck("refused-integrators-fixed", *SHARED_INTEGRATORS, holds=_shares_all)
+stuck("refused-models-alone", ("internal_model",))
+stuck("refused-models-fixed", ("internal_model", "extended"), holds=_shares_all)
 
 
 def refuse(key: str, theorem: str, agents: str) -> None:

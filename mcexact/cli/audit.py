@@ -69,7 +69,8 @@ _DESIGNS = [
         ("decentralized", "extended", "lifted", "held"), ("network", "observer"), ("exact", "float")
     )
 ] + [
-    {"solvability": True, "held": None, "method": method}
+    {follows: None, "held": None, "method": method}
+    for follows in ("solvability", "followed")
     for method in ("decentralized", "extended", "observer")
 ]
 

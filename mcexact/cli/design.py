@@ -490,16 +490,34 @@ def design_observer_command(file: str, order: str | None, **values: Any) -> None
     "none is named. With one option for each agent that holds something. It replaces what the key "
     "regulated of FILE says.",
 )
+@click.option(
+    "--signals",
+    metavar="SIGNALS",
+    help="Follow references, and reject disturbances, that are sums of these: step, ramp, "
+    "sine:OMEGA in rad per unit of time, in discrete time cosine:C with the cosine of the angle "
+    "per step, or poly:P for the solutions of a polynomial, such as poly:s^2+2 or poly:z^2-z+1; "
+    "separated by commas. By default step.",
+)
 def design_setpoint_command(
-    file: str, method: str | None, regulate: tuple[str, ...], **values: Any
+    file: str,
+    method: str | None,
+    regulate: tuple[str, ...],
+    signals: str | None,
+    **values: Any,
 ) -> None:
     """Design a distributed controller that holds outputs of FILE at their agents' set-points.
 
-    By default every output is held, or what the key regulated of FILE names.
+    By default every output is held, or what the key regulated of FILE names. With --signals it
+    follows ramps, sinusoids and other signals.
 
     Without a neighbor graph in FILE agents receive nothing. Without a rate, a radius or a spectrum,
     a search minimizes the cost, with margins. `mcexact simulate --reference` runs the controller
     with given set-points. If some set-points have no equilibrium, the status is 1 and a certificate
     gives their linear combinations.
     """
-    answer("setpoint", file, values, {"method": method, "regulate": regulated_in(regulate)})
+    answer(
+        "setpoint",
+        file,
+        values,
+        {"method": method, "regulate": regulated_in(regulate), "signals": signals},
+    )

@@ -194,7 +194,7 @@ def designed(
             document=account.as_json(design=name, possible=False, reason=reason),
             reason=str(refused),
             advice=_advice(name, plant[0], proof, system, region, sampling)
-            + _held(plant[0], proof, system, wanted.get("regulate"), sampling),
+            + _held(plant[0], proof, system, wanted, sampling),
         )
     _require_readable(design, Limits(**limits))
     with_box = with_box and base.D is None
@@ -441,13 +441,13 @@ def _held(
     file: str,
     proof: Answer,
     system: MultiChannelSystem,
-    regulate: Any,
+    wanted: Mapping[str, Any],
     sampling: Mapping[str, Any],
 ) -> str:
     """Return which outputs can be held together where not all that were asked for can be."""
     if not isinstance(proof, SetpointSolvability):
         return ""
-    kept = held_together(system, selected(system, regulate))
+    kept = held_together(system, selected(system, wanted.get("regulate")))
     if not any(S.nrows for S in kept):
         return ""
     said = f"; all set-points of {selection_in_words(kept, system.names)} have one"
@@ -457,6 +457,8 @@ def _held(
     texts = [f"{name}:{','.join(map(str, positions))}" for name, positions in chosen if positions]
     command = shlex.join(["mcexact", "design", "setpoint", file]) + _options_of(sampling)
     asked = " ".join(f"--regulate {shlex.quote(text)}" for text in texts)
+    if wanted.get("signals") is not None:
+        asked += f" --signals {shlex.quote(wanted['signals'])}"
     return f"{said}: `{command} {asked}` asks for these"
 
 

@@ -437,7 +437,7 @@ def design() -> Schema:
         key: {}
         for key in (
             "agent", "network", "dimensions", "observer_order", "feedback_polynomial",
-            "error_polynomial", "blocks", "kept",
+            "error_polynomial", "blocks", "kept", "followed",
         )
     }  # fmt: skip
     refused = {"possible": {"const": False}, "reason": TEXT}

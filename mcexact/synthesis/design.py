@@ -40,7 +40,7 @@ Method = Literal["decentralized", "observer", "extended"]
 
 _SHOWN = (
     "agent", "network", "dimensions", "observer_order", "feedback_polynomial",
-    "error_polynomial", "blocks", "kept",
+    "error_polynomial", "blocks", "kept", "followed",
 )  # fmt: skip
 
 
@@ -60,7 +60,8 @@ class Design(ShownByAccount):
     certificates : mapping
         All certificates, keyed by the names of their files.
     parts : mapping
-        The parts of the controller by name, and ``"solvability"`` if it holds set-points:
+        The parts of the controller by name, ``"solvability"`` if it holds set-points, and
+        ``"followed"``, their polynomial, if it follows other signals:
 
         - observer: ``feedback`` (F_i), ``observer_gains`` ([K_i, H_ij …]), ``estimated`` (L: the
           agents estimate L x); with a channel controller also ``agent`` (who carries it) and
@@ -100,7 +101,8 @@ class Design(ShownByAccount):
     @property
     def name(self) -> str:
         """``"setpoint"``, or the method."""
-        return "setpoint" if "solvability" in self.parts else self.method
+        follows = not self.parts.keys().isdisjoint(("followed", "solvability"))
+        return "setpoint" if follows else self.method
 
     def measures(self) -> dict[str, float | None]:
         """Compute robustness measures of the loop in floating point; None if numbers exceed floats.

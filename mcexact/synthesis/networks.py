@@ -7,7 +7,8 @@ agents also hold what they send (sections IV-C to V of the paper).  `shared_netw
 gains of the larger system back to agent programs.  Delays belong to the links and holding to the
 agents, so the programs contain no matrix of the lifted system.
 
-`integrated_plant` adds integrators of the outputs, for a search of set-point controllers.
+`integrated_plant` adds integrators of the outputs, or models of other signals, for a search of
+set-point controllers.
 """
 
 from __future__ import annotations
@@ -26,12 +27,14 @@ from mcexact.derived.constructions import (
     checked_dimensions,
     extended_system,
     held_system,
+    internal_model,
     lifted_system,
     servo_system,
 )
 from mcexact.errors import InputError, UsageError, one_of
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.graph import NeighborGraph
@@ -302,7 +305,9 @@ def _region_of_stable_modes(system: MultiChannelSystem) -> StabilityRegion:
 
 
 def integrated_plant(
-    system: MultiChannelSystem, selection: Sequence[Matrix] | None = None
+    system: MultiChannelSystem,
+    selection: Sequence[Matrix] | None = None,
+    signals: Polynomial | None = None,
 ) -> MultiChannelSystem:
     """Return the plant with its integrators, of which agent i measures σ_i, and y_i, too.
 
@@ -312,11 +317,13 @@ def integrated_plant(
         n states and the outputs y_i = C_i x.
     selection : sequence of m Matrix, optional
         S_i, of which S_i y_i is integrated; by default every y_i is.
+    signals : Polynomial, optional
+        α of degree d, for models of other signals than constants in place of the integrators.
 
     Returns
     -------
     MultiChannelSystem
-        A plant with the matrices of `servo_system`.
+        A plant with the matrices of `servo_system`, or of `internal_model`.
 
     Notes
     -----
@@ -330,24 +337,32 @@ def integrated_plant(
     ((0, 1), (3, 0))
     """
     held = selection or every_output(system)
-    plant = as_plant(servo_system(system, held))
-    return (
-        plant
-        if system.typical_sizes is None
-        else plant.with_typical_sizes(_with_integrators(system, system.typical_sizes, held))
-    )
+    made = servo_system(system, held) if signals is None else internal_model(system, signals, held)
+    plant = as_plant(made)
+    sizes = system.typical_sizes
+    if sizes is None:
+        return plant
+    return plant.with_typical_sizes(_with_integrators(system, sizes, held, degree_of(signals)))
+
+
+def degree_of(signals: Polynomial | None) -> int:
+    """The states of a model of one output: the degree of α, or 1 for an integrator."""
+    return 1 if signals is None else signals.degree
 
 
 def _with_integrators(
-    system: MultiChannelSystem, sizes: TypicalSizes, selection: Sequence[Matrix]
+    system: MultiChannelSystem, sizes: TypicalSizes, selection: Sequence[Matrix], degree: int
 ) -> TypicalSizes:
-    """The sizes of a plant with its integrators, which are as large as ten errors of S_i y_i."""
+    """The sizes of a plant with its integrators, which are as large as ten errors of S_i y_i.
+
+    So is each of the ``degree`` blocks of a model of other signals.
+    """
     errors = sizes.of_errors([system.q(i) for i in range(system.m)])
     summed = [
         [sum((abs(x) * e for x, e in zip(row, each, strict=True)), Fraction(0)) for row in S.rows()]
         for S, each in zip(selection, errors, strict=True)
     ]
-    integrated = [[e or STANDARD_ERROR for e in each] for each in summed]
+    integrated = [[e or STANDARD_ERROR for e in each] * degree for each in summed]
     return TypicalSizes(
         [*sizes.of_states(system.n), *(e / STANDARD_ERROR for e in chain(*integrated))],
         sizes.inputs,
@@ -356,10 +371,11 @@ def _with_integrators(
     )
 
 
-def without_integrators(units: Units, selection: Sequence[Matrix]) -> Units:
-    """The units of a plant, for those of the plant with its integrators."""
-    count = sum(S.nrows for S in selection)
-    outputs = tuple(each[S.nrows :] for each, S in zip(units.outputs, selection, strict=True))
+def without_integrators(units: Units, selection: Sequence[Matrix], degree: int = 1) -> Units:
+    """The units of a plant, for those of the plant with its integrators, or with such models."""
+    sizes = [degree * S.nrows for S in selection]
+    count = sum(sizes)
+    outputs = tuple(each[size:] for each, size in zip(units.outputs, sizes, strict=True))
     return Units(units.states[: len(units.states) - count], units.inputs, outputs)
 
 

@@ -21,6 +21,7 @@ from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.answer.modes import FixedSpectrum
 from mcexact.errors import InputError, LimitReached, UsageError, telling
 from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.units import Units, in_own_units
@@ -48,6 +49,7 @@ def request_for(
     *,
     aims: Aims | None = None,
     selection: Sequence[Matrix] | None = None,
+    signals: Polynomial | None = None,
     avoids_fixed_modes: bool = False,
     least_cost: bool = True,
 ) -> Request:
@@ -61,6 +63,8 @@ def request_for(
     selection : sequence of m Matrix, optional
         S_i, for a controller with integrators of S_i y_i: the sensible rate is that of the plant
         with these integrators.
+    signals : Polynomial, optional
+        Of models that stand in place of the integrators.
     avoids_fixed_modes : bool
         Whether a chosen rate is slow enough for the stable fixed modes of the system.
     least_cost : bool
@@ -94,7 +98,7 @@ since all agents together have no optimal controller
     telling(progress)("the sensible rate")
     about, weights = in_own_units(system), Weights.of(system, aims.weights, Units.of(system))
     if selection is not None:
-        about, weights, _ = integrated_problem(system, selection, aims.weights)
+        about, weights, _ = integrated_problem(system, selection, aims.weights, signals)
     chosen = chosen_regions(about, weights)
     searches = least_cost and agent is None and aims.effort != 0
     brisk = None

@@ -1,4 +1,4 @@
-"""Set-point control, by integrators in the agents and a distributed controller.
+"""Set-points and other signals, by models of them in the agents and a distributed controller.
 
 Agent i integrates y_i − r_i, and a controller stabilizes the plant with these integrators; at rest
 every output then is at its set-point.  It exists only if every set-point has an equilibrium and the
@@ -8,6 +8,9 @@ The controller is that of `decentralized` or `distributed_observer` for the plan
 treated as a plant, and `with_integrators` moves the integrators into the agents' own states.  By
 default a controller of low order is searched, without communication if no fixed mode forbids this;
 a controller of a theorem comes next.
+
+Ramps, sinusoids and other signals take the place of constant set-points with models of their
+polynomial in place of the integrators, by the same steps (B. A. Francis and W. M. Wonham 1976).
 """
 
 from __future__ import annotations
@@ -22,15 +25,22 @@ from mcexact.analysis.structure import setpoint_solvability
 from mcexact.answer import loops as say
 from mcexact.answer.loops import refusal
 from mcexact.answer.structure import SetpointSolvability
-from mcexact.derived.constructions import regulated_outputs, servo_system, setpoint_system
+from mcexact.derived.constructions import (
+    companion_matrix,
+    internal_model,
+    regulated_outputs,
+    servo_system,
+    setpoint_system,
+)
 from mcexact.errors import Impossible, InputError, InternalError, LimitReached, OutOfReach, one_of
 from mcexact.exact.linear_algebra import row_echelon
-from mcexact.exact.matrix import Matrix, block, block_diagonal, hstack, vstack
-from mcexact.exact.polynomial import product
+from mcexact.exact.matrix import Matrix, block, block_diagonal, hstack, kronecker, vstack
+from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.roots import StabilityRegion, steady_point
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.regulated import read_selection
+from mcexact.model.signals import constant_signals, signal_polynomial, signals_in_words
 from mcexact.model.system import MultiChannelSystem, as_plant, with_links
 from mcexact.synthesis.design import Design, Method, designed
 from mcexact.synthesis.distributed_observer import observers
@@ -40,6 +50,7 @@ from mcexact.synthesis.networks import (
     DerivedNetwork,
     Dimensions,
     decentralized_network,
+    degree_of,
     every_output,
     integrated_plant,
     sharing_network,
@@ -65,10 +76,11 @@ def design_setpoint(
     dimensions: Dimensions = "minimal",
     arithmetic: Arithmetic = "exact",
     regulate: Any = None,
+    signals: Any = None,
     aims: Aims | None = None,
     progress: Progress | None = None,
 ) -> Design:
-    """Design a distributed controller that holds outputs at their agents' set-points.
+    """Design a distributed controller that holds outputs at set-points, or follows other signals.
 
     Parameters
     ----------
@@ -100,6 +112,10 @@ def design_setpoint(
         What is held, for each agent that holds something: the positions of some of its outputs,
         from 1 on, or a matrix S_i of q_i columns, so that S_i y_i is held at S_i r_i.  By default
         what the plant names as `MultiChannelSystem.regulated`, else every output.
+    signals : str, sequence of str, or Polynomial, optional
+        The references and disturbances under which errors tend to 0, such as
+        ``"step,ramp,sine:1/2"``, or their polynomial α of degree d; see `signal_polynomial`.  By
+        default constants.  The plant with its models has n + d Σ q_i states.
     aims : Aims, optional
         What the search aims at.  The weights are those of the plant.
     progress : callable, optional
@@ -110,7 +126,10 @@ def design_setpoint(
         Agent i integrates y_i − r_i, or S_i (y_i − r_i), as the first entries of its private state;
         in a search, and if only some outputs are held, it also uses y_i itself.  Its ``parts`` are
         the ``solvability``, ``held``, the rows of S_i by agent where not every output is held, and
-        ``designed``, the parts of the design for the plant with its integrators.
+        ``designed``, the parts of the design for the plant with its integrators.  With other
+        signals than constants agent i has models of them in place of the integrators, of d states
+        for each row, and the parts have α as ``followed``, with ``held`` for every agent;
+        ``solvability`` is there if constants are among the signals.
 
     Raises
     ------
@@ -128,6 +147,10 @@ def design_setpoint(
     equilibrium, where ẇ_i = y_i − r_i = 0.  It is also verified that the gain at s = 0 is the
     identity, or that from r to S y is S.  Where only some outputs are held, the proposals are those
     for `servo_system`: what is held and what is measured are told apart, as by Davison (1976).
+
+    With other signals the proposals are those for `internal_model`.  Without communication one
+    exists iff no root of α outside the stability region is fixed with models at each agent; see
+    `internal_model` for the rank condition.
 
     Examples
     --------
@@ -147,34 +170,63 @@ invariant zero of the plant
     system, graph = with_links(system, graph)
     one_of(method, (None, "observer", "extended"), "method")
     selection = selected(system, regulate)
-    solvability = _required(system, selection)
-    integrated = setpoint_system(system) if selection is None else servo_system(system, selection)
-    held = selection or every_output(system)
+    others, held = _other_signals(system, signals), selection or every_output(system)
+    parts: dict[str, Any] = {"held": None if selection is None else _by_agent(system, held)}
+    if others is None or constant_signals(system.time).divides(others):
+        parts["solvability"] = _required(system, selection)
+    if others is not None:
+        integrated = internal_model(system, others, held)
+        parts |= {"held": _by_agent(system, held), "followed": others}
+    elif selection is None:
+        integrated = setpoint_system(system)
+    else:
+        integrated = servo_system(system, selection)
     arguments = system, agent, spectrum, rate, radius, arithmetic, progress
     least_cost = method != "observer"
-    request = request_for(*arguments, aims=aims, selection=held, least_cost=least_cost)
+    request = request_for(
+        *arguments, aims=aims, selection=held, signals=others, least_cost=least_cost
+    )
     _require_reachable(integrated, request.region)
 
     def attempt(asked: Request) -> Design:
-        task = _Task(system, held, integrated, graph, asked, method, dimensions, aims or Aims())
-        proposals = (_for_the_plant(system, held, each) for each in task.proposals())
+        aimed = aims or Aims()
+        task = _Task(system, held, others, integrated, graph, asked, method, dimensions, aimed)
+        proposals = (_for_the_plant(system, held, others, each) for each in task.proposals())
         return designed("observer", asked, system, system.neighbors, proposals, stable=True)
 
     design = at_a_reachable_rate(request, attempt)
-    gain, S = design.loop.closed.steady_gain, block_diagonal(held)
-    if gain is None or S @ gain != S:
-        raise InternalError("a stable loop with integrators does not attain its set-points")
+    if "solvability" in parts:
+        gain, S = design.loop.closed.steady_gain, block_diagonal(held)
+        if gain is None or S @ gain != S:
+            raise InternalError("a stable loop with integrators does not attain its set-points")
+    proved = {"setpoint": parts["solvability"]} if "solvability" in parts else {}
     methods: dict[str | None, Method] = {None: "observer", "decentralized": "decentralized"}
     return replace(
         design,
         method=methods.get(design.parts.get("network"), "extended"),
-        certificates={**design.certificates, "setpoint": solvability},
-        parts={
-            "solvability": solvability,
-            "held": None if selection is None else _by_agent(system, selection),
-            "designed": design.parts,
-        },
+        certificates={**design.certificates, **proved},
+        parts=parts | {"designed": design.parts},
     )
+
+
+def _other_signals(system: MultiChannelSystem, signals: Any) -> Polynomial | None:
+    """The polynomial of the signals, or None for constants alone.
+
+    Raises
+    ------
+    InputError
+        As for `signal_polynomial`, or if a signal tends to 0, so that nothing has to follow it.
+    """
+    if signals is None:
+        return None
+    alpha, region = signal_polynomial(signals, system.time), StabilityRegion(system.time)
+    for p, _ in alpha.factor():
+        if region.contains_roots_of(p):
+            found = signals_in_words(p, system.time)
+            raise InputError(
+                f"expected signals that do not tend to 0, found {found}", where="signals"
+            )
+    return None if alpha == constant_signals(system.time) else alpha
 
 
 @dataclass(frozen=True)
@@ -183,6 +235,7 @@ class _Task:
 
     system: MultiChannelSystem
     selection: Sequence[Matrix]
+    signals: Polynomial | None
     integrated: MultiChannelSystem
     graph: NeighborGraph
     request: Request
@@ -216,7 +269,8 @@ class _Task:
 
     def _weighed(self) -> tuple[MultiChannelSystem, StabilityRegion, Weights]:
         """The plant with its integrators, in units near its sizes, the region, and the weights."""
-        plant, weights, _ = integrated_problem(self.system, self.selection, self.aims.weights)
+        about = self.system, self.selection, self.aims.weights, self.signals
+        plant, weights, _ = integrated_problem(*about)
         return plant, self.request.region, weights
 
     def _network(self, to: MultiChannelSystem, asked: Request) -> DerivedNetwork:
@@ -230,7 +284,7 @@ class _Task:
     def _searched(self) -> Iterator[Proposal]:
         """Search without communication if that suffices, else with shared sub-states."""
         (*_, weights), asked = self._weighed(), self.request
-        plant = integrated_plant(self.system, self.selection)
+        plant = integrated_plant(self.system, self.selection, self.signals)
         network = self._network(plant, asked)
         family = Family(network, "states")
         if self.method is None and not any(network.dimensions):
@@ -340,10 +394,17 @@ def _required(
 
 def _require_reachable(augmented: MultiChannelSystem, region: StabilityRegion) -> None:
     """Raise an error for modes that are too slow and not controllable or not observable."""
+    unreached = say.MODELS_UNREACHED if _has_models(augmented) else say.INTEGRATORS_UNREACHED
     for decide, verb in ((joint_controllability, "control"), (joint_observability, "observe")):
         decision = decide(augmented)
         if not region.contains_roots_of(decision.uncontrollable_polynomial):
-            raise refusal("unreached", decision, template=say.INTEGRATORS_UNREACHED[verb])
+            raise refusal("unreached", decision, template=unreached[verb])
+
+
+def _has_models(augmented: MultiChannelSystem) -> bool:
+    """Whether models of other signals stand in place of integrators."""
+    made: str = augmented.subject[-1]["construction"]
+    return made == "internal_model"
 
 
 def _proposals(
@@ -373,23 +434,31 @@ def _proposals(
     except Impossible as refused:
         certificate = refused.certificate
         if minimal and certificate.kind == "fixed_spectrum":
-            raise refusal("integrators", certificate) from None
+            fixed = say.MODELS_FIXED if _has_models(integrated) else say.INTEGRATORS_FIXED
+            raise refusal("integrators", certificate, template=fixed) from None
+        made = [step["construction"] for step in certificate.subject]
+        if made[-1:] == ["internal_model"] and certificate.kind == "fixed_spectrum":
+            raise refusal("models", certificate, region=request.region) from None
         raise
 
 
 def _for_the_plant(
-    system: MultiChannelSystem, selection: Sequence[Matrix], proposal: Proposal
+    system: MultiChannelSystem,
+    selection: Sequence[Matrix],
+    signals: Polynomial | None,
+    proposal: Proposal,
 ) -> Proposal:
     """Convert a proposal for the plant with its integrators to one for the plant."""
     n, places = system.n, list(range(system.n))
-    w, start = n, n + sum(S.nrows for S in selection)
-    for S, agent in zip(selection, proposal.controller.agents, strict=True):
+    sizes = [degree_of(signals) * S.nrows for S in selection]
+    w, start = n, n + sum(sizes)
+    for size, agent in zip(sizes, proposal.controller.agents, strict=True):
         # (x_i, (w_i, z_i)), of (x, w, x_1, z_1, …).
-        places += [*range(start, start + agent.shared), *range(w, w + S.nrows)]
+        places += [*range(start, start + agent.shared), *range(w, w + size)]
         places += range(start + agent.shared, start + agent.shared + agent.private)
-        w, start = w + S.nrows, start + agent.shared + agent.private
+        w, start = w + size, start + agent.shared + agent.private
     return Proposal(
-        with_integrators(system, proposal.controller, selection),
+        with_integrators(system, proposal.controller, selection, signals),
         (product(proposal.polynomials),) if proposal.polynomials else (),
         ()
         if proposal.polynomials
@@ -402,6 +471,7 @@ def with_integrators(
     system: MultiChannelSystem,
     controller: Controller,
     selection: Sequence[Matrix] | None = None,
+    signals: Polynomial | None = None,
 ) -> Controller:
     """Make w_i a part of agent i's own state, for a controller of the plant with integrators.
 
@@ -410,10 +480,12 @@ def with_integrators(
     system : MultiChannelSystem
         The plant.
     controller : Controller
-        A controller for its `setpoint_system`, `servo_system` or `integrated_plant`, in which
-        agents use their own w_i and y_i alone.
+        A controller for its `setpoint_system`, `servo_system`, `internal_model` or
+        `integrated_plant`, in which agents use their own w_i and y_i alone.
     selection : sequence of m Matrix, optional
         S_i, of which S_i y_i is integrated; by default every y_i is.
+    signals : Polynomial, optional
+        Those of the models in place of the integrators.
 
     Returns
     -------
@@ -425,14 +497,15 @@ def with_integrators(
     InputError
         If an agent uses the integrators of another agent, which are not sent.
     """
-    programs = []
+    programs, alpha = [], signals or constant_signals(system.time)
     for i, agent in enumerate(controller.agents):
         S, k = (selection or every_output(system))[i], agent.private
-        q = S.nrows
+        model = kronecker(companion_matrix(alpha), Matrix.identity(S.nrows))
+        q = model.nrows
+        S = vstack([Matrix.zeros(q - S.nrows, S.ncols), S], ncols=S.ncols)
         for each in agent.maps():
             if any(j != i and not M.is_zero() for j, M in each.outputs.items()):
                 raise InputError("an agent uses the integrators of another one")
-        stay = Matrix.identity(q) * steady_point(system.time)
         maps = [
             _on_own_state(each, i, size, q, k)
             for each, size in zip(agent.maps(), (agent.shared, k, system.p(i)), strict=True)
@@ -441,7 +514,7 @@ def with_integrators(
         private = LinearMap(
             {i: vstack([S, maps[1].outputs.get(i, Matrix.zeros(k, S.ncols))])},
             {j: vstack([Matrix.zeros(q, M.ncols), M]) for j, M in maps[1].shared.items()},
-            block([[hstack([stay, Matrix.zeros(q, k)])], [own]]),
+            block([[hstack([model, Matrix.zeros(q, k)])], [own]]),
             vstack([-S, Matrix.zeros(k, S.ncols)]),
         )
         programs.append(

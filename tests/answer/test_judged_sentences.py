@@ -291,3 +291,26 @@ def test_what_is_regulated_tends_to_its_set_points_and_nothing_else_does() -> No
     assert verdict(held, case)
     for other in ([["1", [["0", "1"]]]], [["1", [["1", "0"], ["0", "1"]]]], []):
         assert not verdict(replace(held, values={"held": other}), case)
+
+
+def test_what_follows_signals_follows_these_and_no_others() -> None:
+    plant = MultiChannelSystem([[0]], [[[1]]], [[[1], [0]]])
+    made = design_setpoint(
+        plant,
+        regulate={"1": [1]},
+        signals="step,poly:s^2+2",
+        rate="1/9",
+        aims=Aims(effort=0),
+    )
+    document = document_of(json.loads(json.dumps(made.controller.document(), default=str)))
+    asked = {"region": plain(made.region), "network": "decentralized"}
+    rows = [said(each) for each in made.account.sentences]
+    [held] = [row for row in rows if row.rule == "design-steady-signals"]
+    case, values = Case(plant_of(plant), asked, document, rows), dict(held.values)
+    assert verdict(held, case)
+    for words in ("steps", "solutions of s^2 + 2", "solutions of s^3 + 2*s"):
+        assert verdict(replace(held, values={**values, "signals": words}), case)
+    for words in ("sinusoids of 2 rad", "ramps", "polynomials of degrees up to 2"):
+        assert not verdict(replace(held, values={**values, "signals": words}), case)
+    for other in ([["1", [["0", "1"]]]], []):
+        assert not verdict(replace(held, values={**values, "held": other}), case)

@@ -32,6 +32,7 @@ from mcexact.derived.constructions import (
     dual,
     error_system,
     extended_system,
+    internal_model,
     setpoint_system,
 )
 from mcexact.errors import InputError, McexactError
@@ -40,6 +41,7 @@ from mcexact.exact.roots import StabilityRegion
 from mcexact.model import gallery
 from mcexact.model.box import Box
 from mcexact.model.graph import NeighborGraph
+from mcexact.model.signals import constant_signals
 from mcexact.model.statespace import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.text import plain
@@ -184,12 +186,20 @@ def no_gains(system: MultiChannelSystem) -> list[Matrix]:
 
 def refusals(system: MultiChannelSystem) -> Found:
     """What stands in the way of a design: of the plant, with integrators, of the errors."""
-    tracked = setpoint_system(system)
+    tracked, followed = (
+        setpoint_system(system),
+        internal_model(system, constant_signals(system.time) ** 2),
+    )
     yield from told(
         lambda: joint_controllability(system),
         lambda: joint_observability(system),
         lambda: joint_controllability(tracked),
         lambda: joint_observability(tracked),
+        lambda: joint_controllability(followed),
+        lambda: joint_observability(followed),
+        lambda: fixed_spectrum(followed),
+        lambda: fixed_spectrum(extended_system(followed, [followed.n] * system.m, "states")),
+        lambda: fixed_spectrum(extended_system(followed, [0] * system.m, "states")),
         lambda: fixed_spectrum(system),
         lambda: fixed_spectrum(tracked),
         lambda: completeness(error_system(system, no_gains(system))),
@@ -359,6 +369,44 @@ def tracking() -> Iterator[tuple[str, list[Document]]]:
             programs.append(program | {"private_update": update, "input": back})
         found += looped(system, programs)
     yield "tracking_others", found
+    for time in ("continuous", "discrete"):
+        yield f"tracking_models_{time}", list(models(time))
+
+
+def models(time: str) -> Found:
+    """Loops of an integrator whose agent has a model of a ramp or a sinusoid, or nearly one."""
+    zero = int(time == "discrete")
+    port = {"name": "1", "B": [[1]], "C": [[1]]}
+    system: Document = {"time": time, "A": [[zero]], "channels": [port]}
+    # z_1' = z_2, z_2' = y - r + its last row, u = its first row of y, z_1 and z_2
+    exact: list[tuple[Rows, Rows]] = [
+        ([[0, 1], [0, 0]], [[-2, -1, -2]]),
+        ([[0, 1], [-1, 0]], [[-2, 1, -1]]),
+    ]
+    if time == "discrete":
+        exact = [([[0, 1], [-1, 1]], [[-2, 1, 0]]), ([[0, 1], [-1, 2]], [[-3, 1, -3]])]
+    shape = {"name": "1", "shared": 0, "shared_update": {}}
+    taken: Rows = [[0], [1]]
+    ways: list[tuple[Rows, Rows, int]] = [(taken, [[0], [-1]], 1), (taken, [[0], [-2]], 1)]
+    ways += [(taken, [[0], ["-1/2"]], 1), (taken, [[0], [1]], 1), (taken, [[0], [-1]], 2)]
+    ways += [(taken, [["1/9"], [-1]], 1), ([["1/9"], [1]], [[0], [-1]], 1)]
+    ways += [([["1/9"], [1]], [["-1/9"], [-1]], 1), ([[0], [2]], [[0], [-2]], 1)]
+    for inner, gains in exact:
+        back = {"outputs": {"1": [gains[0][:1]]}, "private": [gains[0][1:]]}
+        for own, reference, factor in ways:
+            first = [[factor * x for x in inner[0]], inner[1]]
+            update = {"outputs": {"1": own}, "reference": reference, "private": first}
+            program = {**shape, "private": 2, "private_update": update, "input": back}
+            yield from looped(system, [program])
+        # a state of its own, which drives the model or only watches it
+        watched: Rows
+        for watched in ([[*inner[0], 0], [*inner[1], "1/9"], [0, 0, "1/9"]],
+                        [[*inner[0], 0], [*inner[1], 0], [1, 0, "-1/9"]],
+                        [[*inner[0], 0], [*inner[1], 0], [1, 0, 0]]):  # fmt: skip
+            update = {"outputs": {"1": [*taken, [0]]}, "reference": [[0], [-1], [0]]}
+            more = {"outputs": back["outputs"], "private": [[*gains[0][1:], 0]]}
+            program = {**shape, "private": 3, "private_update": {**update, "private": watched}}
+            yield from looped(system, [{**program, "input": more}])
 
 
 def looped(system: Document, agents: list[Document]) -> Found:

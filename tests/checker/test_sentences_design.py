@@ -13,7 +13,12 @@ from mcexact.analysis.structure import setpoint_solvability
 from mcexact.answer.protocol import document
 from mcexact.checker.kinds import Verdict
 from mcexact.checker.sentences import RULES
-from mcexact.derived.constructions import error_system, extended_system, setpoint_system
+from mcexact.derived.constructions import (
+    error_system,
+    extended_system,
+    internal_model,
+    setpoint_system,
+)
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
 from tests.checker import test_setpoint
@@ -84,6 +89,26 @@ GROWS = tracking(
     "continuous", FOLLOWED, [1, -2, 1], input={"outputs": {"1": [[2]]}, "private": [[-1]]}
 )
 
+
+def turning(delayed: int) -> Document:
+    """The loop of x' = u and a model of s² + 1 behind it, whose first state may be delayed."""
+    taken = {"outputs": {"1": [[0], [1]]}, "reference": [[0], [-1]]}
+    agent = {
+        "name": "1",
+        "shared": 0,
+        "private": 2,
+        "shared_update": {},
+        "private_update": {**taken, "private": [[-delayed, 1], [-1, 0]]},
+        "input": {"outputs": {"1": [[-2]]}, "private": [[1, -1]]},
+    }
+    controller = {"time": "continuous", "agents": [agent]}
+    step = {"construction": "closed_loop", "controller": controller}
+    claim = {"polynomial": [1 + delayed, 2 + 2 * delayed, 2 + delayed, 1]}
+    return certificate("closed_loop_spectrum", INTEGRATOR, claim, {"moduli": [101, 103]}, step)
+
+
+TURNS, LAGS = turning(0), turning(1)
+
 STABLE = changed(
     LOOP,
     ("kind", "stability"),
@@ -125,7 +150,7 @@ STILL = MultiChannelSystem([[0]], [[[0]]], [[[1]]], neighbors={"1": []})
 def of(system: MultiChannelSystem) -> dict[str, Document]:
     """The certificates of refusals, or of what refuses nothing."""
     tracked, errors = setpoint_system(system), error_system(system, [Matrix.zeros(1, system.n)])
-    shared = extended_system(system, [0], "states")
+    shared, followed = extended_system(system, [0], "states"), internal_model(system, "ramp")
     return {
         "control": document(joint_controllability(system)),
         "observe": document(joint_observability(system)),
@@ -136,6 +161,13 @@ def of(system: MultiChannelSystem) -> dict[str, Document]:
         "fixed": document(fixed_spectrum(system)),
         "shared": document(fixed_spectrum(shared)),
         "tracked": document(fixed_spectrum(extended_system(tracked, [tracked.n], "states"))),
+        "followed-control": document(joint_controllability(followed)),
+        "followed-observe": document(joint_observability(followed)),
+        "followed": document(fixed_spectrum(extended_system(followed, [followed.n], "states"))),
+        "followed-alone": document(fixed_spectrum(followed)),
+        "followed-too-little": document(
+            fixed_spectrum(extended_system(followed, [followed.n - 1], "states"))
+        ),
         "too-little": document(fixed_spectrum(extended_system(tracked, [tracked.n - 1], "states"))),
     }
 
@@ -145,6 +177,10 @@ WRONG = {
     "refused-uncontrollable": "observe fixed",
     "refused-unobservable": "control complete",
     "refused-integrators-control": "tracked-observe control",
+    "refused-models-control": "tracked-control followed-observe control",
+    "refused-models-observe": "tracked-observe followed-control observe",
+    "refused-models-fixed": "tracked followed-too-little shared fixed",
+    "refused-models-alone": "followed tracked fixed",
     "refused-integrators-observe": "tracked-control observe",
     "refused-errors-fixed": "fixed tracked",
     "refused-fixed": "errors shared",
@@ -162,10 +198,15 @@ PLACES = {
     "refused-fixed": "fixed",
     "refused-fixed-shared": "shared",
     "refused-integrators-fixed": "tracked",
+    "refused-models-control": "followed-control",
+    "refused-models-observe": "followed-observe",
+    "refused-models-fixed": "followed",
+    "refused-models-alone": "followed-alone",
 }
-LOOPS = "design-observer design-observer-float design-network design-setpoint"
+LOOPS = "design-observer design-observer-float design-network design-setpoint design-tracking"
 SIZES = (
-    "design-carrier design-carrier-for design-order design-order-integrators design-shared "
+    "design-carrier design-carrier-for design-order design-order-integrators design-order-models "
+    "design-shared "
     "design-longest-number design-observer-order certify-states"
 )
 OBSERVERS = "design-feedback design-errors"
@@ -182,6 +223,7 @@ IMPLIED: list[tuple[str, list[Document]]] = [
     ("design-steady-state", [TRACKS]),
     ("design-steady-state", [STEPS]),
     *(("design-steady-regulated", [loop]) for loop in (TRACKS, STEPS, HALF)),
+    *(("design-steady-signals", [loop]) for loop in (TRACKS, STEPS, HALF, LEAKS, TURNS)),
     ("certify-inside certify-decided certify-largest", [STABLE]),
     ("certify-decided-blocks", [BLOCKS]),
     ("certify-outside refused-outside", [SLOWER]),
@@ -206,6 +248,8 @@ DENIED: list[tuple[str, list[Document]]] = [
     ("design-kept", [document(fixed_spectrum(KEPT))]),
     *(("design-steady-state", [loop]) for loop in (LOOP, HALF, LEAKS, DEAF, DOUBLES, GROWS)),
     *(("design-steady-regulated", [loop]) for loop in (LOOP, LEAKS, DEAF, DOUBLES, GROWS, SLOWER)),
+    *(("design-steady-signals", [loop]) for loop in (LOOP, DEAF, DOUBLES, GROWS, SLOWER, LAGS)),
+    *(("design-steady-regulated design-steady-state", [loop]) for loop in (TURNS, LAGS)),
     ("design-steady-state", [SLOWER]),
     ("certify-decided-blocks", [LOOP]),
     ("certify-outside refused-outside certify-least", [STABLE]),

@@ -31,6 +31,7 @@ from threadpoolctl import threadpool_limits
 from mcexact.analysis.performance import default_weights
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix, matrix_from_float, matrix_to_float, to_float
+from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.roots import is_discrete
 from mcexact.model.controller import Controller
 from mcexact.model.sizes import TypicalSizes
@@ -41,6 +42,7 @@ from mcexact.synthesis.networks import (
     DerivedNetwork,
     Signal,
     decentralized_network,
+    degree_of,
     integrated_plant,
     network_programs,
     without_integrators,
@@ -226,7 +228,10 @@ class Weights:
         return weights
 
     def with_integrators(
-        self, selection: Sequence[Matrix], sizes: Sequence[Fraction] | None = None
+        self,
+        selection: Sequence[Matrix],
+        sizes: Sequence[Fraction] | None = None,
+        degree: int = 1,
     ) -> Weights:
         """Return the weights of `integrated_plant`, for the weights of a system.
 
@@ -238,17 +243,20 @@ class Weights:
         selection : sequence of m Matrix
         sizes : sequence of Fraction, optional
             Of the integrators; by default 1.
+        degree : int
+            The blocks of each model, if models of other signals stand in place of integrators.
         """
         S = block_diag(np.zeros((0, 0)), *map(matrix_to_float, selection))
-        large = np.array([to_float(size) for size in sizes or [Fraction(1)] * len(S)])
+        large = np.array([to_float(size) for size in sizes or [Fraction(1)] * (degree * len(S))])
         order = list[int]()
         first = second = 0
         for each in selection:
             # The integrals of a channel come first, then its outputs.
-            order += range(first, first + each.nrows)
-            order += range(len(S) + second, len(S) + second + each.ncols)
+            for block in range(degree):
+                order += range(block * len(S) + first, block * len(S) + first + each.nrows)
+            order += range(degree * len(S) + second, degree * len(S) + second + each.ncols)
             first, second = first + each.nrows, second + each.ncols
-        V = block_diag(S @ self.V @ S.T, self.V)[np.ix_(order, order)]
+        V = block_diag(*[S @ self.V @ S.T] * degree, self.V)[np.ix_(order, order)]
         Q, W = block_diag(self.Q, np.diag(large**-2)), block_diag(self.W, np.diag(large**2))
         return Weights(Q, self.R, W, V, self.bandwidth)
 
@@ -257,6 +265,7 @@ def integrated_problem(
     system: MultiChannelSystem,
     selection: Sequence[Matrix],
     chosen: Mapping[str, Any] | None = None,
+    signals: Polynomial | None = None,
 ) -> tuple[MultiChannelSystem, Weights, Units | None]:
     """The plant with its integrators in units near its sizes, its weights, and these units.
 
@@ -264,25 +273,26 @@ def integrated_problem(
     ----------
     system : MultiChannelSystem
     selection : sequence of m Matrix
+    signals : Polynomial, optional
         As for `integrated_plant`.
     chosen : mapping, optional
         As for `Weights.of`, for the plant without integrators.
     """
-    plant = integrated_plant(system, selection)
-    units, count = Units.of(plant), sum(S.nrows for S in selection)
+    plant, d = integrated_plant(system, selection, signals), degree_of(signals)
+    units, count = Units.of(plant), d * sum(S.nrows for S in selection)
     if units is None:
         sizes = None if plant.typical_sizes is None else plant.typical_sizes.of_states(plant.n)
         large = None if sizes is None else sizes[system.n :]
-        return plant, Weights.of(system, chosen).with_integrators(selection, large), None
+        return plant, Weights.of(system, chosen).with_integrators(selection, large, d), None
     measured = system_in(units, plant)
     own = measured.typical_sizes or TypicalSizes()
-    weights = Weights.of(system, chosen, without_integrators(units, selection))
+    weights = Weights.of(system, chosen, without_integrators(units, selection, d))
     parts = [
-        scaled(S, inverted(each[: S.nrows]), each[S.nrows :])
+        scaled(S, inverted(each[: S.nrows]), each[d * S.nrows :])
         for S, each in zip(selection, units.outputs, strict=True)
     ]
     large = own.of_states(plant.n)[plant.n - count :]
-    return measured, weights.with_integrators(parts, large), units
+    return measured, weights.with_integrators(parts, large, d), units
 
 
 def _checked(entries: Any, size: int, where: str, *, definite: bool) -> Floats:

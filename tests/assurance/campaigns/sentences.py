@@ -329,6 +329,10 @@ def design(rng: random.Random) -> Iterator[Judged]:
             [[rng.choice([0, 0, -1]) for _ in range(plant.n)] for _ in range(plant.p(i))]
             for i in range(plant.m)
         ]
+    if make is design_setpoint and rng.random() < 0.4:
+        known = {"continuous": ("ramp", "sine:1", "step,poly:s^2+2"),
+                 "discrete": ("ramp", "cosine:1/2", "poly:z+1")}  # fmt: skip
+        options["signals"] = rng.choice(known[plant.time])
     if make in (design_decentralized, design_extended) and rng.random() < 0.4:
         options["agent"] = rng.choice(plant.names)
     yield from judged_design(plant, make, options)

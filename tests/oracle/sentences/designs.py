@@ -7,14 +7,16 @@ to set-points is simulated from drawn initial states.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
-from flint import fmpq_mat, fmpq_poly
+from flint import fmpq, fmpq_mat, fmpq_poly
 from scipy.linalg import expm
+from sympy import Poly, Symbol, sympify
 
 from tests.oracle.certificates.controllers import MAPS
 from tests.oracle.sentences.analysis import blamed, judge, lost
@@ -78,7 +80,7 @@ def _network(said: Said, case: Case) -> bool:
     return _kind(said.values["kind"], case) and _certified(case)
 
 
-@judge("design-setpoint")
+@judge("design-setpoint", "design-tracking")
 def _setpoint(said: Said, case: Case) -> bool:
     """A controller with set-points, by the way that the words name, whose loop is stable."""
     told, shared = said.values["method"], "shared" in _messages(case)
@@ -105,11 +107,11 @@ def _states(said: Said, case: Case) -> bool:
     return bool(said.values["n"] == case.loop.total)
 
 
-@judge("design-order", "design-order-integrators")
+@judge("design-order", "design-order-integrators", "design-order-models")
 def _order(said: Said, case: Case) -> bool:
     order = sum(agent.shared + agent.private for agent in _agents(case))
-    integrators = said.rule.endswith("integrators")
-    return said.values["order"] == order and integrators == _has_references(case)
+    holds = said.rule != "design-order"
+    return said.values["order"] == order and holds == _has_references(case)
 
 
 @judge("design-observer-order")
@@ -334,27 +336,96 @@ def _steady_state(said: Said, case: Case) -> bool:
 @judge("design-steady-regulated")
 def _steady_regulated(said: Said, case: Case) -> bool:
     """The combinations of the outputs, from drawn states, with drawn constant set-points."""
-    S = _selection(said.values["held"], case)
+    S = np.array(_selection(said.values["held"], case), dtype=float)
     still = [False] * int(case.plant.outputs().nrows())
     return bool(len(S)) and _certified(case) and tracks(case, still, held=S)
 
 
-def _selection(held: Sequence[Sequence[Any]], case: Case) -> Any:
+def _selection(held: Sequence[Sequence[Any]], case: Case) -> list[list[Fraction]]:
     """The rows of combinations over the outputs of all channels."""
     widths = [int(C.nrows()) for C in case.plant.C]
     rows = []
     for name, listed in held:
         i = case.plant.names.index(name)
         for row in listed:
-            whole = np.zeros(sum(widths))
-            whole[sum(widths[:i]) : sum(widths[: i + 1])] = [float(Fraction(x)) for x in row]
+            whole = [Fraction(0)] * sum(widths)
+            whole[sum(widths[:i]) : sum(widths[: i + 1])] = [Fraction(x) for x in row]
             rows.append(whole)
-    return np.array(rows)
+    return rows
 
 
-def _equilibrium(case: Case) -> bool:
-    """Whether the exact equilibrium of constant set-points has the outputs equal to them."""
-    total, n = case.loop.total, case.plant.n
+NAMED = re.compile(
+    r"(steps|ramps)|sinusoids of (\S+) rad|cosine (\S+)|solutions of (.+)|degrees up to (\d+)"
+)
+
+
+def signals_of(words: str, case: Case) -> fmpq_poly:
+    """The polynomial of signals, from their words: the least one of all of them."""
+    x, alpha = fmpq_poly([0, 1]), fmpq_poly([1])
+    for part in words.split(", "):
+        named = NAMED.search(part)
+        if named is None:
+            raise UnjudgedError(f"signals in other words: {part}")
+        kind, omega, cosine, text, degree = named.groups()
+        if kind or degree:
+            p = (x - case.own.place) ** (int(degree) + 1 if degree else 1 + (kind == "ramps"))
+        elif omega:
+            p = x**2 + number(omega) ** 2
+        elif cosine:
+            p = x**2 - 2 * number(cosine) * x + 1
+        else:
+            variable = Symbol("sz"[case.own.place])
+            found = Poly(sympify(text.replace("^", "**")), variable).all_coeffs()[::-1]
+            p = monic(fmpq_poly([fmpq(int(c.p), int(c.q)) for c in found]))
+        alpha = monic(alpha * p // alpha.gcd(p))
+    return alpha
+
+
+@judge("design-steady-signals")
+def _steady_signals(said: Said, case: Case) -> bool:
+    """The exact response to all solutions of the polynomial, as references and disturbances.
+
+    With v' = M v, M the companion matrix, the response is x = X v with X M = L X + E v_1, and
+    there is one X for each place where v_1 enters.
+    """
+    rows = _selection(said.values["held"], case)
+    S = [[fmpq(x.numerator, x.denominator) for x in row] for row in rows]
+    if not S or not _certified(case):
+        return False
+    alpha, E = signals_of(said.values["signals"], case), exact_references(case)
+    total, n, d, q = case.loop.total, case.plant.n, alpha.degree(), E.ncols()
+    whole = fmpq_mat(total * d, total * d)
+    L = case.loop_matrix
+    for k in range(d):
+        for i in range(total):
+            for j in range(total):
+                whole[k * total + i, k * total + j] = -L[i, j]
+            if k:  # the column k of X M is column k − 1 of X, less the last one times a_k
+                whole[k * total + i, (k - 1) * total + i] += 1
+            whole[k * total + i, (d - 1) * total + i] -= alpha[k]
+    enters = fmpq_mat(total * d, q + n)
+    for i in range(total):
+        for j in range(q):
+            enters[i, j] = E[i, j]
+    for i in range(n):
+        enters[i, q + i] = 1
+    X = whole.solve(enters)
+    C = case.plant.outputs()
+    for row in S:
+        for j in range(q + n):
+            for k in range(d):
+                error = fmpq(0)
+                for a, s in enumerate(row):
+                    y = sum((C[a, i] * X[k * total + i, j] for i in range(n)), fmpq(0))
+                    error += s * (y - int(k == 0 and j == a))
+                if error != 0:
+                    return False
+    return True
+
+
+def exact_references(case: Case) -> fmpq_mat:
+    """The matrix by which all set-points act on the state of the loop."""
+    total = case.loop.total
     widths = [int(C.nrows()) for C in case.plant.C]
     E = fmpq_mat(total, sum(widths))
     column = 0
@@ -369,6 +440,14 @@ def _equilibrium(case: Case) -> bool:
                 for b in range(part.ncols()):
                     E[first + a, column + b] = E[first + a, column + b] + part[a, b]
         column += widths[i]
+    return E
+
+
+def _equilibrium(case: Case) -> bool:
+    """Whether the exact equilibrium of constant set-points has the outputs equal to them."""
+    total, n = case.loop.total, case.plant.n
+    E = exact_references(case)
+    column = int(E.ncols())
     M = fmpq_mat(case.loop_matrix)
     for k in range(total):
         M[k, k] = M[k, k] - case.own.place
@@ -404,7 +483,7 @@ def _no_observation(said: Said, case: Case) -> bool:
 
 def _integrators(case: Case) -> Mapping[str, Any]:
     """The construction of the integrators that the sentence is about."""
-    named = ("integrators", "servo")
+    named = ("integrators", "servo", "internal_model")
     made = [step for step in case.asked.get("steps", ()) if step["construction"] in named]
     return made[0] if made else {"construction": "integrators"}
 
@@ -413,23 +492,30 @@ def _integrated(case: Case) -> Facts:
     return Facts(case.made(_integrators(case)))
 
 
-@judge("refused-integrators-control")
+@judge("refused-integrators-control", "refused-models-control")
 def _integrators_control(said: Said, case: Case) -> bool:
     return lost(said, _integrated(case).uncontrolled())
 
 
-@judge("refused-integrators-observe")
+@judge("refused-integrators-observe", "refused-models-observe")
 def _integrators_observe(said: Said, case: Case) -> bool:
     return lost(said, _integrated(case).unobserved())
 
 
-@judge("refused-integrators-fixed")
+@judge("refused-integrators-fixed", "refused-models-fixed")
 def _integrators_fixed(said: Said, case: Case) -> bool:
     """Fixed with as many shared states as there are states, and with outputs sent as well."""
     plant = replace(case, plant=case.made(_integrators(case)))
     most = [plant.plant.n] * plant.plant.m
     fixed = plant.extended(most, OUTPUTS).fixed_polynomial
     p = monic(said.values["p"])
+    return p.degree() > 0 and all(divides(q, fixed) for q, _ in irreducible(p))
+
+
+@judge("refused-models-alone")
+def _models_alone(said: Said, case: Case) -> bool:
+    """Fixed without messages between the agents of the plant with its models."""
+    fixed, p = _integrated(case).fixed_polynomial, monic(said.values["p"])
     return p.degree() > 0 and all(divides(q, fixed) for q, _ in irreducible(p))
 
 
