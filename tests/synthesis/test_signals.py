@@ -28,6 +28,11 @@ def keys(design: Any) -> list[str]:
     return [key for key in known if key.startswith("design-steady")]
 
 
+def reason(refused: Any) -> str:
+    """The key of the sentence that refuses."""
+    return str(refused.value.message.template.key)
+
+
 @pytest.mark.parametrize(
     ("plant", "signals", "alpha"),
     [
@@ -74,8 +79,9 @@ def test_errors_tend_to_zero_on_a_ramp_and_not_with_integrators_alone() -> None:
 
 def test_over_links_agents_follow_what_they_cannot_alone() -> None:
     """Without messages an agent with more outputs than inputs fixes the signals."""
-    with pytest.raises(Impossible, match="plant with models of these signals moves") as refused:
+    with pytest.raises(Impossible) as refused:
         design_setpoint(APART, signals="ramp", rate="1/10", aims=THEOREM)
+    assert reason(refused) == "refused-models-alone"
     proof = refused.value.certificate
     assert proof.kind == "fixed_spectrum" and check(proof, APART).valid
     assert Polynomial.of(0, 1).divides(proof.polynomial)
@@ -87,15 +93,18 @@ def test_over_links_agents_follow_what_they_cannot_alone() -> None:
 def test_signals_that_no_input_reaches_are_refused_with_a_proof() -> None:
     """The outputs x_1 and x_1' of one agent with two inputs follow no sinusoids together."""
     carts = MultiChannelSystem([[0, 1], [-1, 0]], [[[0, 0], [1, 2]]], [[[1, 0], [0, 1]]])
-    with pytest.raises(Impossible, match="models of these signals") as refused:
+    with pytest.raises(Impossible) as refused:
         design_setpoint(carts, signals="sine:2", aims=THEOREM)
+    assert reason(refused) == "refused-models-control"
     proof = refused.value.certificate
     assert proof.kind == "controllability" and check(proof, carts).valid
-    with pytest.raises(Impossible, match="no equilibrium"):
+    with pytest.raises(Impossible) as refused:
         design_setpoint(carts, signals="ramp", aims=THEOREM)
+    assert reason(refused).startswith("refused-no-equilibrium")
 
 
 @pytest.mark.parametrize(("plant", "signals"), [(LAG, "poly:s+1"), (STEPPED, "step,poly:z")])
 def test_signals_that_tend_to_zero_need_no_model(plant: Any, signals: str) -> None:
-    with pytest.raises(InputError, match="do not tend to 0"):
+    with pytest.raises(InputError) as refused:
         design_setpoint(plant, signals=signals)
+    assert refused.value.where == "signals"
