@@ -5,7 +5,7 @@ BIN := .venv/bin
 STAMP := .venv/.installed
 PIP := $(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check
 
-.PHONY: help agreement absence parameters hypersurfaces members every-question judged-sentences gaps periodic samples limited attack weakened-checker mutants readers damaged-files package-coverage checked-proofs weakened-proofs impossible-proofs verified-agreement paper-mutants bench designs boxes nearby digits costs six-loops rounding sentences schemas ledger records corpus wording durations matrix schemas-everywhere cluster look
+.PHONY: help agreement absence parameters hypersurfaces members every-question judged-sentences signals gaps periodic samples limited attack weakened-checker mutants readers damaged-files package-coverage checked-proofs weakened-proofs impossible-proofs verified-agreement paper-mutants bench designs boxes nearby digits costs six-loops rounding sentences schemas ledger records corpus wording durations matrix schemas-everywhere cluster look
 
 # This list.
 help:
@@ -45,6 +45,12 @@ members: $(STAMP)
 # quarter of an hour.  The same command continues after an interruption.
 every-question: $(STAMP)
 	$(BIN)/python -m tests.assurance.campaigns.every_question $(or $(N),3000) $(or $(FIRST),0)
+
+# Which roots of signals are fixed with models of them at the agents, without messages and with shared
+# states, beside the ranks of 1,000 drawn plants for all sets of agents: minutes.  The same command
+# continues after an interruption.
+signals: $(STAMP)
+	$(BIN)/python -m tests.assurance.campaigns.signals $(or $(N),1000) $(or $(FIRST),0)
 
 # Every sentence about 500 drawn plants and designs, judged by an oracle of its own from the plant
 # alone, and which rules were never met: a quarter of an hour.  The same command continues after an
