@@ -71,7 +71,7 @@ _LABEL = "structural fixed modes"
 NONE = Template("structural-none", "none{information:fed}", _SOURCES, _LABEL)
 MODES = Template(
     "structural-modes",
-    "{p:modes}{information:fed}",
+    "{modes:of pattern}{information:fed}",
     f"patterns.structural_modes; {_SOURCES}",
     _LABEL,
 )
@@ -96,7 +96,11 @@ def _structural(structural: Claim, context: Context) -> Said:
     information, p = structural.information, structural.polynomial
     if information == "own" and context.has("fixed"):
         return
-    yield MODES(p=p, information=information) if p.degree else NONE(information=information)
+    if not p.degree:
+        yield NONE(information=information)
+    else:
+        apart = tuple(k + 1 for k in structural.without_feedback)
+        yield MODES(modes=(apart, structural.at_zero), information=information)
 
 
 @WHY_RULES.rule("table", ZEROS, EQUALITIES, premises=("structural_fixed_modes", "fixed_spectrum"))

@@ -197,6 +197,17 @@ def _times(most: int) -> str:
     return "once" if most == 1 else f"at most {_TIMES.get(most, f'{most} times')}"
 
 
+def _of_pattern(modes: tuple[Sequence[int], int]) -> str:
+    """Write the modes that are fixed for all numbers: of which states, and how often 0 is."""
+    apart, zeros = modes
+    names = listed(cut([str(k) for k in apart], 8))
+    own = f"those of {'state' if len(apart) == 1 else 'states'} {names} without feedback"
+    often = _TIMES.get(zeros, f"{zeros} times")
+    if not zeros:
+        return own
+    return f"{own}, and 0 {often} more" if apart else f"0, {often}"
+
+
 def _often(multiplicities: tuple[int | None, int]) -> str:
     """Write the multiplicity of a mode in A, and how many of its eigenvalues are fixed at most."""
     times, stuck = multiplicities
@@ -541,6 +552,7 @@ FORMS: dict[str, Write] = {
         instant="each agent feeds back the outputs of all its neighbors, received without delay",
     ),
     "often": _often,
+    "of pattern": _of_pattern,
     "behavior": _behavior,
     "Modes": lambda p: _capital(modes(p, 60)),
     "about": about_mode,

@@ -109,6 +109,12 @@ def _also(function: Callable[..., int]) -> Callable[..., int]:
     help="Do not look for plants nearby of which an answer is another one.",
 )
 @click.option(
+    "--pattern",
+    is_flag=True,
+    help="Take the entries that are not 0 for places of any numbers: decide only which modes are "
+    "fixed for all of them, and for almost all of them.",
+)
+@click.option(
     "--assert",
     "asserted",
     type=click.Choice(["no-fixed-modes"]),
@@ -128,6 +134,7 @@ def command(
     at: tuple[tuple[str, Fraction], ...],
     nearby: Path | None,
     no_nearby: bool,
+    pattern: bool,
     asserted: str | None,
     html: Path | None,
     latex: bool,
@@ -156,6 +163,8 @@ def command(
     require_writable(nearby)
     if nearby is not None and no_nearby:
         raise click.UsageError("--nearby and --no-nearby contradict each other: give one of them")
+    if pattern and asserted:
+        raise click.UsageError("--pattern has no answer to --assert: leave out one of them")
     also = [option for option in _ALSO if values[option.replace("-", "_")]]
     require_other(html, parts.file_of(values))
     plant, part = run.read(file), parts.taken(values, run)
@@ -174,7 +183,8 @@ def command(
             effort=effort,
             wanted=wanted,
             at=dict(at),
-            nearby=not no_nearby,
+            nearby=not (no_nearby or pattern),
+            pattern=pattern,
             seconds=run.deadline.left(),
             part=part,
         ),
@@ -189,7 +199,7 @@ def command(
         if only_latex:
             emit(answer.latex)
         else:
-            emit(answer.words + "\n")
+            emit(answer.words + "\n" if answer.words.strip() else "")
             emit_tables(answer.tables)
         return not only_latex
 

@@ -108,7 +108,11 @@ def analyzed(
             "--modulo is about the values of a plant: leave out --uncertainty and "
             "--largest-uncertainty"
         )
+    if asked.pattern and (asked.radii or asked.effort or asked.part):
+        raise UsageError("--pattern is about all numbers: leave out what is about those of a plant")
     if isinstance(typed, ParametricSystem):
+        if asked.pattern:
+            raise UsageError("--pattern is about a plant without parameters: give them values")
         parts.without(typed, asked.part, limits)
         return _for_all_values(
             typed, asked, with_page, with_latex, system_by_digest, known=known, report=report
@@ -117,6 +121,7 @@ def analyzed(
     system = parts.without(given, asked.part, limits)
     analysis = analyze(
         system,
+        ["structural_fixed_modes"] if asked.pattern else None,
         also=asked.questions,
         information=asked.information,
         subset=asked.subset,

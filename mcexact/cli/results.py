@@ -150,6 +150,8 @@ class Asked:
         Whether plants nearby are looked for.
     seconds : float or None
         What is left of the time limit at the beginning; None without a limit.
+    pattern : bool
+        Whether only that is asked which does not depend on the numbers of the plant.
     part : str, or tuple of str and bytes, or None
         The part of the state that is left out, or a file with a subspace.
     """
@@ -165,6 +167,7 @@ class Asked:
     at: Mapping[str, Fraction]
     nearby: bool = True
     seconds: float | None = None
+    pattern: bool = False
     part: str | tuple[str, bytes] | None = None
 
     @property

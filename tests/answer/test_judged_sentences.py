@@ -250,16 +250,17 @@ def test_what_is_fixed_for_all_numbers_is_judged_and_denied(
     [row] = [said(each) for each in found.sentences if each.template.key.startswith("structural-")]
     case = Case(plant_of(linked))
     assert verdict(row, case)
-    others: list[dict[str, Any]] = [{"p": plain(Polynomial.from_roots([7]))}] * ("p" in row.values)
+    others: list[dict[str, Any]] = [{"modes": [[2, 3], 0]}, {"modes": [[], 5]}]
+    others *= "modes" in row.values
     others += [{"information": "instant"}]
     others += [{"information": "own" if information == "outputs" else "outputs"}] * (
         plant is LINKED
     )
     for change in others:
         assert verdict(replace(row, values={**row.values, **change}), case) is False
-    opposite = "structural-none" if "p" in row.values else "structural-modes"
-    one = {**row.values, "p": plain(Polynomial.from_roots([5]))}
-    assert verdict(replace(row, rule=opposite, values=one), case) is False
+    opposite = {"structural-none": "structural-modes"}.get(row.rule, "structural-none")
+    values: dict[str, Any] = {"modes": [[1], 0]} if "none" in row.rule else {}
+    assert verdict(replace(row, rule=opposite, values={**row.values, **values}), case) is False
 
 
 @pytest.mark.slow

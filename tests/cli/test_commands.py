@@ -25,6 +25,7 @@ from tests.wording import says
 
 GALLERY = Path(gallery.__file__).parent
 TRIPLE = str(GALLERY / "hidden-triple-mode.json")
+UNLINKED = str(GALLERY / "liu2020-3ch-no-communication.json")
 DOUBLE = str(GALLERY / "compleib-dis2.json")
 QUOTING = Path(mcexact.__file__).parents[1] / "docs" / "why-exactly.md"
 
@@ -372,3 +373,22 @@ def test_an_audit_is_a_page_with_what_is_proved_and_how_to_repeat_it(
     assert says(page.read_text("utf-8"), "bytes names")
     file = str(folder / "manifest.json")
     assert call("check", file, "--html", file)[0] == 3
+
+
+def test_a_pattern_is_asked_about_without_its_numbers(call: Call, tmp_path: Path) -> None:
+    folder = tmp_path / "proofs"
+    asked = ("analyze", UNLINKED, "--pattern")
+    status, out, _ = call(*asked, "--certificates", str(folder))
+    assert status == 0 and "fixed modes  those of state 3" in out
+    assert call("check", str(folder), "--system", UNLINKED)[0] == 0
+    told = json.loads(call(*asked, "--json")[1])
+    assert {"structural_fixed_modes"} == {key for key in told if key.endswith("modes")}
+
+
+@pytest.mark.parametrize(
+    "more",
+    [("--uncertainty", "1%"), ("--modulo", "both"), ("--assert", "no-fixed-modes")],
+)
+def test_what_needs_numbers_is_not_asked_of_a_pattern(call: Call, more: tuple[str, ...]) -> None:
+    status, _, err = call("analyze", UNLINKED, "--pattern", *more)
+    assert status == 2 and "--pattern" in err

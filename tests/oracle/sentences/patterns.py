@@ -32,8 +32,11 @@ def _pattern(said: Said, case: Case) -> bool:
     information = said.values["information"]
     if information != "own" and (information != "outputs" or case.plant.neighborhoods is None):
         return False
-    p = fmpq_poly([1]) if said.rule == "structural-none" else said.values["p"]
-    return bool(p == _structural(case.plant, information))
+    used = [list(N) for N in case.plant.graph()] if information == "outputs" else None
+    U = without_feedback(case.plant, used or [[i] for i in range(case.plant.m)])
+    zeros = _structural(case.plant, information).degree() - len(U)
+    apart, often = ((), 0) if said.rule == "structural-none" else said.values["modes"]
+    return ([*apart], often) == ([k + 1 for k in sorted(U)], zeros)
 
 
 @judge("fixed-by-zeros", "fixed-by-equalities")
