@@ -154,12 +154,12 @@ def _field(name: str, spec: str) -> list[Any]:
     if spec in _ROUNDED:
         return [_ROUNDED[spec], name]
     if spec.startswith("count "):
-        return ["count", spec.removeprefix("count ")]
+        return ["count", name, spec.removeprefix("count ")]
     if spec == "gains":
         return ["maybe", *_parts(GAINS)]
-    if spec == "diagonal":
+    if spec in {"diagonal", "int", "yes"}:
         return [spec, name]
-    if spec in {"int", "region"}:
+    if spec == "region":
         return [spec]
     phrases = phrases_of(spec)
     if not phrases:

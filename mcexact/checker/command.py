@@ -383,6 +383,9 @@ class Evidence:
             words = words.replace(premise.statement, f"[{numbers[premise.file]}]")
         short = words.replace(self.own()[0].plant.words, "the plant").removeprefix("For ")
         short = WITH_DIGEST.sub("", short.removeprefix("the plant: "))
+        short = short.replace(
+            "the closed loop with the controller of: the plant: ", "closed loop: "
+        )
         alone = [each.file for each in premises if short == f"[{numbers[each.file]}]"]
         return self.verdicts[alone[0]].summary if alone else short
 

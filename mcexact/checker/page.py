@@ -30,9 +30,10 @@ SENTENCES = (
     "for the whole statement of the certificate 3, below. The sentence is quoted from the "
     "manifest. The checker compared its words with those of its rule, and its costs, weights, "
     "margins, distances, rates and steps with the certificates. It did not compare the marked "
-    "words: yes or no and other choices, modes, names, whole numbers. Compare them yourself. A "
-    "REMARK claims nothing. What else a report says, such as 'worth installing' or what it calls "
-    "computed and not certified, is not covered by this page."
+    "words: choices, modes, names, some whole numbers. Compare them yourself. Rounded numbers are "
+    "rounded to the side on which the sentence stays true. A sentence that was left out of the "
+    "manifest is not missed. A REMARK claims nothing. What else a report says, such as 'worth "
+    "installing' or what it calls computed and not certified, is not covered by this page."
 )
 STYLE = """
 :root { color-scheme: light dark }

@@ -164,7 +164,9 @@ def fixed_spectrum(claim: Json, system: System) -> str:
     end = f"{denied(claim['stabilizable'])}stabilizable by {CONTROL}"
     if len(p) == 1:
         return f"no mode is fixed; {end}"
-    return f"fixed modes: {roots_of(p)}; {end}"
+    return (
+        f"{'the mode ' * (len(p) == 2)}{roots_of(p)} {'is' if len(p) == 2 else 'are'} fixed; {end}"
+    )
 
 
 def loop_cost(claim: Json, system: System) -> str:
@@ -248,10 +250,13 @@ def step_peaks(claim: Json, system: System) -> str:
 def structural_fixed_modes(claim: Json, system: System) -> str:
     """What is fixed whatever the numbers are."""
     U, z = len(claim["without_feedback"]), claim["at_zero"]
+    if not U + z:
+        return "no mode is fixed for all numbers at the places of its entries"
+    own = [f"the modes of {counted(U, 'state')} without feedback"] if U else []
+    zero = [f"{counted(z, 'mode')} at 0"] if z else []
     return (
-        f"with all numbers at the places of its entries, the modes of {U} states without feedback "
-        f"and {z} further ones at 0 are fixed: here the roots of "
-        f"{polynomial_text(claim['polynomial'])}"
+        f"{' and '.join(own + zero)}: fixed for all numbers at the places of its entries; here the "
+        f"roots of {polynomial_text(claim['polynomial'])}"
     )
 
 

@@ -2,8 +2,9 @@
 
 ``wordings.json`` has the template of each rule: fixed words, and fields.  A number that was rounded
 to its safe side, or that bounds eigenvalues, is compared with what follows from the certificates,
-and so are the weights of a cost.  Any other field is not compared, and its place is told: one of a
-few phrases such as yes and no, a whole number, modes, names or channels.
+and so are the weights of a cost.  Yes or no, and a whole number, are compared with the value of the
+same name that the sentence cites, if there is one.  Any other field is not compared, and its place
+is told: one of a few phrases, modes, names or channels.
 """
 
 from __future__ import annotations
@@ -29,6 +30,7 @@ DIAGONAL = re.compile(r"(?:([^ ,()]{1,400}) )?I\b|diag\(([^()]*)\)", re.ASCII)
 MORE = re.compile(r", (\d+) more$", re.ASCII)
 ROUGHLY = chr(0x2248)
 """The sign before a number that is nearly another one."""
+YES = {"yes": True, "no": False}
 MOST_DIGITS = 400
 """A longer number of a text is not compared."""
 
@@ -70,6 +72,11 @@ class Known:
         endings = tuple(f"/{field}" for field in fields)
         named = (_rational(x) for _, pointer, x in self.because if pointer.endswith(endings))
         return [x for x in named if x is not None]
+
+    def values(self, field: str, kind: type[int]) -> list[int]:
+        """The values of a type that were read, whose pointers end with a name."""
+        cited = (x for _, pointer, x in self.because if pointer.endswith(f"/{field}"))
+        return [x for x in cited if type(x) is kind]
 
     def of(self, field: str) -> list[Fraction]:
         """The numbers that a field may show.
@@ -143,19 +150,28 @@ def _ends(part: Part, text: str, place: int, known: Known) -> Iterator[End]:
     kind, words = part[0], part[1:]
     if kind in ("of", "agree"):
         yield from _phrases(words, text, place, compared=kind == "agree")
-    elif kind == "count":
-        if whole := WHOLE.match(text, place):
-            plural = "" if whole[0] == "1" else "s"
-            yield from _phrases([f" {words[0]}{plural}"], text, whole.end())
-    elif kind == "int":
-        if whole := WHOLE.match(text, place):
-            yield whole.end(), False
+    elif kind == "yes":
+        cited = known.values(words[0], bool)
+        allowed = [word for word in YES if not cited or YES[word] in cited]
+        yield from _phrases(allowed, text, place, compared=bool(cited))
+    elif kind in ("int", "count"):
+        yield from _whole(words, text, place, known.values(words[0], int))
     elif kind == "region":
         yield from _bounds(text, place, known)
     elif kind == "diagonal":
         yield from _diagonal(text, place, known.lists(words[0]))
     else:
         yield from _rounded(kind, text, place, known.of(words[0]))
+
+
+def _whole(words: Sequence[str], text: str, place: int, cited: Sequence[int]) -> Iterator[End]:
+    """Where a whole number ends, with its noun if it has one; it is one of those that are cited."""
+    whole = WHOLE.match(text, place)
+    if whole is None or (cited and whole[0] not in map(str, cited)):
+        return
+    noun = f" {words[1]}{'' if whole[0] == '1' else 's'}" if words[1:] else ""
+    if text.startswith(noun, whole.end()):
+        yield whole.end() + len(noun), bool(cited)
 
 
 def _phrases(

@@ -56,15 +56,15 @@ def test_words_that_are_not_compared_are_marked_and_named(
         sentence("controllable", "joint_controllability") | {"text": text}
         for text in ("jointly controllable: every mode", "jointly controllable: any mode")
     ]
-    said.append(sentence("complete", "completeness") | {"text": "complete: no"})
-    write(tmp_path, listed=manifest(sentences=said))
+    fixed = sentence("fixed", "fixed_spectrum") | {"text": "fixed modes: the mode 0"}
+    write(tmp_path, listed=manifest(sentences=[*said, fixed]))
     page = tmp_path / "page.html"
     assert main([str(tmp_path), "--html", str(page)]) == 1
     text, told = page.read_text("utf-8"), capsys.readouterr().out
-    assert marked(text) == ["no"]
+    assert marked(text) == ["the mode 0"]
     assert "warning: 1 certificates" in text
     assert "INVALID 'jointly controllable: any mode'" in told
-    assert "in the report: 'complete: no'; compare 'no'" in told
+    assert "in the report: 'fixed modes: the mode 0'; compare 'the mode 0'" in told
 
 
 def test_what_was_asked_and_what_was_found_are_told_apart() -> None:

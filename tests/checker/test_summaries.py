@@ -44,7 +44,7 @@ def test_certificates_of_answers_have_short_lines(path: Path) -> None:
 
 SHORT: list[tuple[Document, str]] = [
     (FREE, "no mode is fixed; stabilizable by linear time-invariant decentralized control"),
-    (FIXED, "fixed modes: 1; not stabilizable by linear time-invariant decentralized control"),
+    (FIXED, "the mode 1 is fixed; not stabilizable by linear time-invariant decentralized control"),
     (MODE, "it is not complete"),
     (CONTROLLABLE, 'the channels {"1", "2", "3"} together control every mode'),
     (OBSERVABLE, 'the channels {"1", "2", "3"} together observe every mode'),

@@ -22,8 +22,14 @@ def known(*numbers: str) -> Known:
     ("part", "numbers", "good", "bad"),
     [
         (["of", "yes", "no"], [], ["yes", "no"], ["maybe", "", "yesno"]),
-        (["int"], [], ["0", "17", "-2"], ["", "a", "1.5"]),
-        (["count", "state"], [], ["1 state", "2 states"], ["1 states", "2 state", "states", "1"]),
+        (["int", "k"], [], ["0", "17", "-2"], ["", "a", "1.5"]),
+        (
+            ["count", "k", "state"],
+            [],
+            ["1 state", "2 states"],
+            ["1 states", "2 state", "states", "1"],
+        ),
+        (["yes", "k"], [], ["yes", "no"], ["maybe", ""]),
         (["any"], [], ["", "x - 1", "the mode 0"], []),
         (["below", "a"], ["2/3"], ["0.666"], ["0.667", "0.65", "6.66", "1e9999", "1/0", "x"]),
         (["above", "a"], ["2/3"], ["0.667"], ["0.666", "0.68", "2"]),
@@ -81,8 +87,34 @@ def test_weights_are_those_of_the_certificate(
         assert left_open(text, [["diagonal", "states"]], read) == wanted, text
 
 
+@pytest.mark.parametrize(
+    ("part", "value", "good", "bad", "open_"),
+    [
+        (["yes", "k"], True, "yes", "no", "other"),
+        (["yes", "k"], False, "no", "yes", "other"),
+        (["int", "k"], 3, "3", "4", "other"),
+        (["count", "k", "state"], 1, "1 state", "2 states", "other"),
+    ],
+)
+def test_a_value_that_is_cited_is_compared(
+    part: list[str], value: object, good: str, bad: str, open_: str
+) -> None:
+    read = Known([["a", "/claim/k", value], ["a", "/claim/k", "x"]], [])
+    assert left_open(good, [part], read) == ()
+    assert left_open(bad, [part], read) is None
+    assert left_open(bad, [[part[0], open_, *part[2:]]], read) == ((0, len(bad)),)
+
+
 def test_the_places_of_what_is_not_compared_are_told() -> None:
-    template = ["modes: ", ["any"], " (", ["of", "yes", "no"], "), ", ["count", "state"], ["int"]]
+    template = [
+        "modes: ",
+        ["any"],
+        " (",
+        ["of", "yes", "no"],
+        "), ",
+        ["count", "k", "state"],
+        ["int", "k"],
+    ]
     text = "modes: x - 1 (no), 3 states7"
     places = left_open(text, template, known())
     assert [text[a:b] for a, b in places or ()] == ["x - 1", "no", "3 states", "7"]
