@@ -754,7 +754,8 @@ def simulated(
 
 def _signals(wanted: Mapping[str, Any]) -> dict[str, Any]:
     """The arguments of a simulation that a real loop has as well."""
-    return {name: value for name, value in wanted.items() if name not in ("arithmetic", "points")}
+    ideal = ("arithmetic", "points", "cosines")
+    return {name: value for name, value in wanted.items() if name not in ideal}
 
 
 def _realized(system: MultiChannelSystem, real: Mapping[str, Any]) -> dict[str, Any]:

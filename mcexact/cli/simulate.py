@@ -85,6 +85,13 @@ def converter(text: str) -> tuple[Fraction, ...]:
 )
 @change_option("steps", "Add these numbers, such as 0,2@5, to the set-points")
 @change_option("ramps", "Let the set-points grow by these numbers in each unit of time,")
+@click.option(
+    "--cosines",
+    multiple=True,
+    metavar="NUMBERS:OMEGA",
+    help="Add these numbers, such as 0,2:1/2, times cos(OMEGA t) to the set-points; in discrete "
+    "time OMEGA stands for the cosine of the angle per step. Repeatable.",
+)
 @change_option("disturbances", "Add these numbers to the inputs at the plant")
 @click.option(
     "--arithmetic",
@@ -163,6 +170,7 @@ def command(file: str, controller: str, **values: Any) -> None:
         "initial": _numbers(values["initial"], "--initial"),
         "reference": _numbers(values["reference"], "--reference"),
         **{name: _changes(values[name], name) for name in ("steps", "ramps", "disturbances")},
+        "cosines": _cosines(values["cosines"]),
     }
     wanted["part"] = parts.taken(wanted, run)
     if real and wanted["part"] is not None:
@@ -190,7 +198,7 @@ def command(file: str, controller: str, **values: Any) -> None:
 
 
 _REAL = ("limited", "quantize_outputs", "quantize_inputs", "code", "fixed_point")
-_IDEAL = {"arithmetic": "--arithmetic", "points": "--points", "fractions": "--fractions"}
+_IDEAL = {name: f"--{name}" for name in ("arithmetic", "points", "fractions", "cosines")}
 
 
 def _real(values: dict[str, Any]) -> dict[str, Any]:
@@ -226,6 +234,20 @@ def _changes(texts: tuple[str, ...], name: str) -> list[tuple[Fraction, list[Fra
         [start] = _numbers(time or "0", f"--{name}") or [Fraction(0)]
         changes.append((start, _numbers(numbers, f"--{name}") or []))
     return changes
+
+
+def _cosines(texts: tuple[str, ...]) -> list[tuple[Fraction, list[Fraction]]]:
+    """Parse amplitudes with their frequency."""
+    found = []
+    for text in texts:
+        numbers, colon, omega = text.rpartition(":")
+        if not colon:
+            raise click.BadParameter(
+                f"expected NUMBERS:OMEGA such as 0,2:1/2, found '{text}'", param_hint="--cosines"
+            )
+        [number] = _numbers(omega, "--cosines") or [Fraction(0)]
+        found.append((number, _numbers(numbers, "--cosines") or []))
+    return found
 
 
 def _simulated(*arguments: Any) -> Simulated:

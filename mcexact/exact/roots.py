@@ -238,6 +238,21 @@ def root_above(square: Fraction, bits: int = 64) -> Fraction:
     return (root if root * root == whole else root + 1) * Fraction(2) ** -scale
 
 
+def cosine_near(angle: Fraction, bits: int = 64, *, quarters: int = 0) -> Fraction:
+    """Return a number near cos(angle + quarters · π/2), to about so many bits.
+
+    Examples
+    --------
+    >>> cosine_near(Fraction(0)), float(cosine_near(Fraction(1), quarters=3))
+    (Fraction(1, 1), 0.8414709848078965)
+    """
+    with PRECISION, flint.ctx.workprec(bits):
+        x = flint.arb(flint.fmpq(angle.numerator, angle.denominator))
+        value = (x.cos(), -x.sin(), -x.cos(), x.sin())[quarters % 4].mid()
+        mantissa, exponent = value.man_exp()
+    return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
+
+
 def decimal(value: int, digits: int) -> str:
     """The decimal value / 10^digits without zeros at its end.
 

@@ -16,15 +16,17 @@ every arithmetic, and linear between their changes.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
+from math import factorial
 from typing import Any, Protocol
 
 from mcexact.errors import InputError, LimitReached, UsageError, several, shown_value
 from mcexact.exact.matrix import Matrix, Rounding, from_float, matrix_to_float, to_float
 from mcexact.exact.rational import as_fraction, is_inexact
+from mcexact.exact.roots import cosine_near
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
@@ -485,32 +487,86 @@ class Network:
         return inputs, state, [agent.update() for agent in self.agents]
 
 
-# Set-points and disturbances: sums of steps and ramps.
+# Set-points and disturbances: sums of steps, ramps and cosines.
 
 Columns = list[Matrix]
 """One column for each channel."""
 
 
 @dataclass(frozen=True)
+class Cosine:
+    """cos(ωt) in continuous time; in discrete time cos(tθ), exactly.
+
+    Attributes
+    ----------
+    number : Fraction
+        ω in rad per unit of time, or in discrete time cos θ, θ the angle per step.
+    discrete : bool
+    bits : int
+        To which values in continuous time are rounded.
+    """
+
+    number: Fraction
+    discrete: bool
+    bits: int = 64
+
+    def derivative(self, time: Fraction, order: int = 0) -> Fraction:
+        """A derivative at a time; in discrete time the value.
+
+        Examples
+        --------
+        >>> [str(Cosine(Fraction(3, 5), True).derivative(Fraction(t))) for t in range(4)]
+        ['1', '3/5', '-7/25', '-117/125']
+        >>> float(Cosine(Fraction(2), False).derivative(Fraction(0), 2))
+        -4.0
+        """
+        if self.discrete:
+            return _chebyshev(int(time), self.number)[0]
+        value = cosine_near(self.number * time, self.bits, quarters=order)
+        return value * self.number**order
+
+
+def _chebyshev(k: int, c: Fraction) -> tuple[Fraction, Fraction]:
+    """T_k(c) and T_{k+1}(c), by T_{2k} = 2 T_k² − 1 and T_{2k+1} = 2 T_k T_{k+1} − c."""
+    if k == 0:
+        return Fraction(1), c
+    first, second = _chebyshev(k // 2, c)
+    middle = 2 * first * second - c
+    if k % 2:
+        return middle, 2 * second**2 - 1
+    return 2 * first**2 - 1, middle
+
+
+@dataclass(frozen=True)
 class Change:
-    """Numbers that are added to a signal from a time on: a step, or a ramp with these slopes.
+    """Numbers that are added to a signal from a time on: a step, a ramp, or a cosine.
 
     Attributes
     ----------
     time : Fraction
     columns : list of Matrix
-        For each channel the numbers, or in a ramp the slopes.
+        For each channel the numbers, in a ramp the slopes, and of a cosine the amplitudes.
     ramp : bool
+    cosine : Cosine, optional
     """
 
     time: Fraction
     columns: Columns
     ramp: bool = False
+    cosine: Cosine | None = None
+
+    def derivative(self, time: Fraction, order: int = 0) -> Fraction:
+        """The factor of the columns at a time from its beginning on, or a derivative of it."""
+        if self.cosine is not None:
+            return self.cosine.derivative(time - self.time, order)
+        if order == 0:
+            return time - self.time if self.ramp else Fraction(1)
+        return Fraction(int(self.ramp and order == 1))
 
 
 @dataclass(frozen=True)
 class Signal:
-    """A signal of each channel, a sum of steps and ramps.
+    """A signal of each channel, a sum of steps, ramps and cosines.
 
     Attributes
     ----------
@@ -524,26 +580,34 @@ class Signal:
     @property
     def is_constant(self) -> bool:
         """Whether nothing changes after the start."""
-        return all(change.time <= 0 and not change.ramp for change in self.changes)
+        others = (change.time <= 0 and not change.ramp for change in self.changes)
+        return not self.cosines and all(others)
+
+    @property
+    def cosines(self) -> tuple[Change, ...]:
+        """The cosines among its changes."""
+        return tuple(change for change in self.changes if change.cosine is not None)
+
+    @property
+    def linear(self) -> Signal:
+        """The sum of all others, which is linear between changes."""
+        return Signal(self.zeros, tuple(each for each in self.changes if each.cosine is None))
 
     def at(self, time: Fraction) -> Columns:
         """The values at a time; at the time of a step those after it."""
-        return self._sum(
-            (change, time - change.time if change.ramp else Fraction(1))
-            for change in self.changes
-            if change.time <= time
-        )
+        return self.derivative(time, 0)
 
     def slope(self, time: Fraction) -> Columns:
-        """The slopes after a time, until the next change."""
-        return self._sum(
-            (change, Fraction(1)) for change in self.changes if change.ramp and change.time <= time
-        )
+        """The slopes after a time."""
+        return self.derivative(time, 1)
 
-    def _sum(self, parts: Iterable[tuple[Change, Fraction]]) -> Columns:
+    def derivative(self, time: Fraction, order: int) -> Columns:
+        """The derivatives of an order after a time."""
         total = self.zeros
-        for change, factor in parts:
-            total = [a + b * factor for a, b in zip(total, change.columns, strict=True)]
+        for change in self.changes:
+            factor = change.derivative(time, order) if change.time <= time else Fraction(0)
+            if factor:
+                total = [a + b * factor for a, b in zip(total, change.columns, strict=True)]
         return total
 
 
@@ -562,7 +626,7 @@ class Drive:
 
     @property
     def changes(self) -> tuple[Change, ...]:
-        """All steps and ramps."""
+        """All steps, ramps and cosines."""
         return (*self.references.changes, *self.disturbances.changes)
 
     @property
@@ -584,19 +648,11 @@ class Drive:
         """Give a network the values at a time."""
         _give(network, self.references.at(time), self.disturbances.at(time))
 
-    def apply_derivative(
-        self, network: Network, time: Fraction, order: int, step: Fraction
-    ) -> None:
-        """Give a network the derivatives of an order at a time, times the order's power of a step.
-
-        The signals are linear between their changes.
-        """
-        if order == 0:
-            self.apply(network, time)
-            return
-        factor = step if order == 1 else Fraction(0)
-        slopes = self.references.slope(time), self.disturbances.slope(time)
-        _give(network, *([M * factor for M in each] for each in slopes))
+    def apply_term(self, network: Network, time: Fraction, order: int, step: Fraction) -> None:
+        """Give a network the terms of an order of Taylor series at a time, for a step."""
+        factor = step**order / factorial(order)
+        both = self.references.derivative(time, order), self.disturbances.derivative(time, order)
+        _give(network, *([M * factor for M in each] for each in both))
 
 
 def _give(network: Network, references: Columns, disturbances: Columns) -> None:
@@ -695,6 +751,7 @@ def signal_of(
     ramps: Sequence[tuple[Any, Sequence[Any]]],
     rounding: Rounding | None,
     where: tuple[str, str, str],
+    cosines: Sequence[tuple[Cosine, Sequence[Any]]] = (),
 ) -> Signal:
     """Make a signal of its parts.
 
@@ -708,6 +765,8 @@ def signal_of(
     rounding : {"decimal", "dyadic"} or None
     where : tuple of str
         The names of the three arguments in errors.
+    cosines : sequence of (Cosine, numbers)
+        The amplitudes of cosines from the start on.
     """
     changes = []
     if level is not None:
@@ -724,6 +783,9 @@ def signal_of(
             if start < 0:
                 raise InputError(f"expected a time of at least 0, found {start}", where=place)
             changes.append(Change(start, by_channel(values, sizes, rounding, place), ramp))
+    for k, (cosine, values) in enumerate(cosines):
+        columns = by_channel(values, sizes, rounding, f"cosines[{k}]")
+        changes.append(Change(Fraction(0), columns, cosine=cosine))
     return Signal([Matrix.zeros(size, 1) for size in sizes], tuple(changes))
 
 

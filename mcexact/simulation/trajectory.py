@@ -22,7 +22,7 @@ from fractions import Fraction
 from itertools import chain, pairwise
 from typing import TYPE_CHECKING, Any
 
-from mcexact.errors import InputError, LimitReached, MissingExtra, UsageError, shown_value
+from mcexact.errors import InputError, LimitReached, MissingExtra, UsageError, several, shown_value
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Rounding, largest_entry, matrix_to_float, to_float
 from mcexact.exact.rational import number
@@ -36,6 +36,7 @@ from mcexact.shown import Shown
 from mcexact.simulation.network import (
     Arithmetic,
     Columns,
+    Cosine,
     Drive,
     InitialState,
     Native,
@@ -105,10 +106,19 @@ def integrated(
     if stiff:
         accuracy = {"method": "Radau", "rtol": 1e-8, "atol": 1e-11 * scale}
     wanted, snapshots = set(times), list[Snapshot]()
+    kinds = drive.references, drive.disturbances
+    cosines = [
+        [
+            (floats(each.columns), to_float(each.cosine.number))
+            for each in kind.changes
+            if each.cosine
+        ]
+        for kind in kinds
+    ]
     for piece in drive.pieces(times):
         level, slope = (
-            [floats(each) for each in (kind.at(piece[0]), kind.slope(piece[0]))]
-            for kind in (drive.references, drive.disturbances)
+            [floats(each) for each in (kind.linear.at(piece[0]), kind.linear.slope(piece[0]))]
+            for kind in kinds
         )
         grid = representable(np.array([to_float(t) for t in piece]))
 
@@ -116,12 +126,14 @@ def integrated(
             t: float, flat: Any, level: Any = level, slope: Any = slope, start: Any = grid[0]
         ) -> Any:
             load(flat)
-            network.set_signals(
-                *(
-                    [r + s * (t - start) for r, s in zip(*kind, strict=True)]
-                    for kind in (level, slope)
-                )
-            )
+            entering = []
+            for values, slopes, turning in zip(level, slope, cosines, strict=True):
+                now = [r + s * (t - start) for r, s in zip(values, slopes, strict=True)]
+                for columns, omega in turning:
+                    factor = math.cos(omega * t)
+                    now = [r + c * factor for r, c in zip(now, columns, strict=True)]
+                entering.append(now)
+            network.set_signals(*entering)
             return representable(gathered(*network.evolution()))
 
         with np.errstate(over="ignore", invalid="ignore"):
@@ -194,7 +206,7 @@ def _taylor_step(
     limit = 0.0
     for k in range(1, 40 * digits):
         # The state is h^(k−1) x^(k−1) / (k−1)!, and the signals have the same factor.
-        drive.apply_derivative(network, time, k - 1, step)
+        drive.apply_term(network, time, k - 1, step)
         term = _scaled(network.evolution(), numbers.scalar(step / k))
         network.set_state(*term)
         total = _added(total, term)
@@ -673,6 +685,7 @@ def simulate(
     reference: Sequence[Any] | None = None,
     steps: Sequence[tuple[Any, Sequence[Any]]] = (),
     ramps: Sequence[tuple[Any, Sequence[Any]]] = (),
+    cosines: Sequence[tuple[Any, Sequence[Any]]] = (),
     disturbances: Sequence[tuple[Any, Sequence[Any]]] = (),
     arithmetic: str | None = None,
     digits: int = 60,
@@ -702,6 +715,10 @@ def simulate(
     steps, ramps : sequences of (time, numbers), optional
         What is added to the set-points from a time on: the numbers, or the numbers times the time
         that has passed since.
+    cosines : sequence of (number, numbers), optional
+        Added to the set-points from the start on: the numbers times cos(ωt), for a pair (ω,
+        numbers), ω in rad per unit of time.  In discrete time the numbers times cos(tθ), for a
+        pair (cos θ, numbers), θ the angle per step.
     disturbances : sequence of (time, numbers), optional
         What is added at the plant to the inputs of all channels from a time on.
     arithmetic : {"exact", "multiprecision", "float"}, optional
@@ -756,8 +773,11 @@ def simulate(
     set_initial(network, start, system, controller)
     outputs = [system.q(i) for i in range(system.m)]
     inputs = [system.p(i) for i in range(system.m)]
+    bits = 4 * digits if numbers.name == "multiprecision" else 64
+    waves = _cosines(cosines, rounding, discrete=discrete, bits=bits)
+    names = "reference", "steps", "ramps"
     drive = Drive(
-        signal_of(outputs, reference, steps, ramps, rounding, ("reference", "steps", "ramps")),
+        signal_of(outputs, reference, steps, ramps, rounding, names, waves),
         signal_of(inputs, None, disturbances, (), rounding, ("", "disturbances", "")),
     )
     loop = closed_loop(plant, controller, graph)
@@ -783,6 +803,34 @@ def simulate(
         drive,
         start,
     )
+
+
+def _cosines(
+    pairs: Sequence[tuple[Any, Sequence[Any]]],
+    rounding: Rounding | None,
+    *,
+    discrete: bool,
+    bits: int,
+) -> list[tuple[Cosine, Sequence[Any]]]:
+    """Read cosines with their amplitudes.
+
+    Raises
+    ------
+    InputError
+        If something is no pair, or a cosine of an angle is not between −1 and 1.
+    """
+    made = []
+    for k, pair in enumerate(several(pairs, "cosines", "pairs (number, numbers)")):
+        place = f"cosines[{k}]"
+        if not isinstance(pair, tuple | list) or len(pair) != 2:
+            raise InputError(
+                f"expected a pair (number, numbers), found {shown_value(pair)}", where=place
+            )
+        [number] = numbers_of([pair[0]], rounding, place)
+        if discrete and abs(number) > 1:
+            raise InputError(f"expected a cosine between -1 and 1, found {number}", where=place)
+        made.append((Cosine(number, discrete, bits), pair[1]))
+    return made
 
 
 def _note(of_grid: str | None, controller: Controller) -> str | None:

@@ -96,6 +96,8 @@ def test_options_of_the_real_loop_are_checked(tmp_path: Path) -> None:
         (("--late", "1"), "add --step"),
         ((*REAL, "--arithmetic", "exact"), "--arithmetic is not for the real loop"),
         ((*REAL, "--fractions"), "--fractions is not for the real loop"),
+        ((*REAL, "--cosines", "1:2"), "--cosines is not for the real loop"),
+        (("--cosines", "1"), "expected NUMBERS:OMEGA"),
         ((*REAL, "--limits", "3"), "expected two numbers, as in -1,1 or left:-1,1"),
         ((*REAL, "--quantize-inputs", "8:1"), "expected BITS:LOW,HIGH"),
         ((*REAL, "--quantize-inputs", "1/2:0,1"), "expected a number of bits, found 1/2"),
