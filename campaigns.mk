@@ -5,7 +5,7 @@ BIN := .venv/bin
 STAMP := .venv/.installed
 PIP := $(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check
 
-.PHONY: help agreement absence parameters hypersurfaces members every-question judged-sentences signals gaps periodic samples limited attack weakened-checker mutants readers damaged-files package-coverage checked-proofs weakened-proofs impossible-proofs verified-agreement paper-mutants bench designs boxes nearby digits costs six-loops rounding sentences schemas ledger records corpus wording durations matrix schemas-everywhere cluster look
+.PHONY: help agreement absence parameters hypersurfaces members every-question judged-sentences signals any-graph gaps periodic samples limited attack weakened-checker mutants readers damaged-files package-coverage checked-proofs weakened-proofs impossible-proofs verified-agreement paper-mutants bench designs boxes nearby digits costs six-loops rounding sentences schemas ledger records corpus wording durations matrix schemas-everywhere cluster look
 
 # This list.
 help:
@@ -51,6 +51,12 @@ every-question: $(STAMP)
 # continues after an interruption.
 signals: $(STAMP)
 	$(BIN)/python -m tests.assurance.campaigns.signals $(or $(N),1000) $(or $(FIRST),0)
+
+# Fixed modes of observers over any directed graph beside ranks for closed sets of agents, and of
+# patterns of who uses which outputs beside ranks and drawn gains, on 700 drawn plants: minutes.  The
+# same command continues after an interruption.
+any-graph: $(STAMP)
+	$(BIN)/python -m tests.assurance.campaigns.any_graph $(or $(N),700) $(or $(FIRST),0)
 
 # Every sentence about 500 drawn plants and designs, judged by an oracle of its own from the plant
 # alone, and which rules were never met: a quarter of an hour.  The same command continues after an
