@@ -28,18 +28,20 @@ Qed.
 
 (* Controllability. *)
 Inductive reach_evidence := ByRank of reach_witness | ByFacts of seq (nat * zmat) & seq rule.
-Definition reached (s : zsystem) (T : seq bool) (ev : reach_evidence) : nat :=
+(* Nothing where the evidence is wrong, even if no dimension is left to prove. *)
+Definition reached (s : zsystem) (T : seq bool) (ev : reach_evidence) : option nat :=
   match ev with
-  | ByRank w => if check_reach s T w then reach_of w else 0%N
-  | ByFacts outs rs => if last_fact (ztogether s T outs) rs is Some (Bounded L) then L else 0%N end.
+  | ByRank w => if check_reach s T w then Some (reach_of w) else None
+  | ByFacts outs rs => if last_fact (ztogether s T outs) rs is Some (Bounded L) then Some L else None end.
 Definition check_controllability (s : zsystem) (c : zreach) (a : annihilator) (ev : reach_evidence) : bool :=
-  [&& check_annihilator s (r_T c) (r_poly c) a, reach_sizes c s a & (r_dim c <= reached s (r_T c) ev)%N].
+  [&& check_annihilator s (r_T c) (r_poly c) a, reach_sizes c s a &
+      if reached s (r_T c) ev is Some L then (r_dim c <= L)%N else false].
 Theorem check_controllability_sound s c a ev : check_controllability s c a ev -> forall (K : fieldType) (h : {rmorphism rat -> K}) n m
   (p q : 'I_m -> nat) (S : multichannel K n p q), represents s S -> reach_holds S c.
 Proof.
-case/and3P=> ann sizes low K h n m p q S re; apply: (reach_claim h re ann sizes); apply: leq_trans low _.
-case: ev => [w|outs rs] /=; first by case: ifP => // /(check_reach_sound h re).
-case lf: last_fact => [[L| | | | | | |]|] //; apply: (together_reach (outs := outs) re).
+case/and3P=> ann sizes; case ok: reached => [L|//] low K h n m p q S re; apply: (reach_claim h re ann sizes); apply: leq_trans low _.
+case: ev ok => [w|outs rs] /=; first by case: ifP => // /(check_reach_sound h re) lw [<-].
+case lf: last_fact => [[L'| | | | | | |]|] // [<-]; apply: (together_reach (outs := outs) re).
 have sz : sized_system (ztogether s (r_T c) outs) by move: lf; rewrite /last_fact; case: ifP.
 exact: (last_fact_holds lf h (system_of_represents K sz)).
 Qed.

@@ -419,6 +419,39 @@ PROOFS = Path(__file__).parents[2] / "proofs"
 THEOREMS = (PLANT, "compleib-tf1", "quadruple-tank-pminus", "siljak-two-subsystems-farina")
 
 
+@pytest.mark.skipif(not BUILT, reason="needs the program: make verified")
+@pytest.mark.parametrize(("order", "word"), [([0, 1], "CONFIRMED"), ([1, 0], "INVALID")])
+def test_wrong_evidence_is_refused_where_no_dimension_is_left_to_prove(
+    order: list[int], word: str, tmp_path: Path
+) -> None:
+    """No input moves anything, and the blocks are in an order that A allows, or in the other."""
+    system = {
+        "time": "continuous",
+        "A": [[0, 1], [0, 0]],
+        "channels": [{"name": "1", "B": [[], []], "C": [[0, 0]]}],
+    }
+    claim = {
+        "channels": ["1"],
+        "dimension": 0,
+        "controllable": False,
+        "uncontrollable_polynomial": [0, 0, 1],
+    }
+    witness = {
+        "blocks": [{"states": [a], "evidence": None} for a in order],
+        "measured": None,
+        "annihilator": {"denominator": 1, "entries": [[1, 0], [0, 1]]},
+        "pivots": [0, 1],
+    }
+    head = {"format": "mcexact-certificate/1", "kind": "controllability", "system": system}
+    document = json.dumps({**head, "subject": [], "claim": claim, "witness": witness})
+    path = tmp_path / "certificate.json"
+    path.write_text(document, "ascii")
+    call = [str(verified.program()), str(path)]
+    line = subprocess.run(call, capture_output=True, text=True, check=False).stdout
+    assert line.split()[0] == word
+    assert check_document(document.encode()).verdict == word.replace("CONFIRMED", "VALID")
+
+
 def proved(file: Path) -> bool:
     """Whether Coq reads and proves a file."""
     call = ["coqc", "-Q", str(PROOFS), "mcexact", "-w", "none", str(file)]
