@@ -116,19 +116,17 @@ def integrated(
         for kind in kinds
     ]
     for piece in drive.pieces(times):
-        level, slope = (
-            [floats(each) for each in (kind.linear.at(piece[0]), kind.linear.slope(piece[0]))]
-            for kind in kinds
-        )
+        levels = [floats(kind.linear.at(piece[0])) for kind in kinds]
+        slopes = [floats(kind.linear.slope(piece[0])) for kind in kinds]
         grid = representable(np.array([to_float(t) for t in piece]))
 
         def derivative(
-            t: float, flat: Any, level: Any = level, slope: Any = slope, start: Any = grid[0]
+            t: float, flat: Any, levels: Any = levels, slopes: Any = slopes, start: Any = grid[0]
         ) -> Any:
             load(flat)
             entering = []
-            for values, slopes, turning in zip(level, slope, cosines, strict=True):
-                now = [r + s * (t - start) for r, s in zip(values, slopes, strict=True)]
+            for level, slope, turning in zip(levels, slopes, cosines, strict=True):
+                now = [r + s * (t - start) for r, s in zip(level, slope, strict=True)]
                 for columns, omega in turning:
                     factor = math.cos(omega * t)
                     now = [r + c * factor for r, c in zip(now, columns, strict=True)]
