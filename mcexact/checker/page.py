@@ -19,6 +19,7 @@ from typing import Any
 from .kinds import Found
 
 ARCHIVE = "mcexact-checker.pyz"
+GOOD = ("VALID", "IMPLIED")
 ATTESTED = (
     "I ran the checker as it says above, on the files of the table 'What was checked'. It wrote "
     "this page. In each sentence I compared the marked words with what follows beside it, or with "
@@ -166,9 +167,10 @@ class Audit:
 
     def _answer(self) -> Iterator[str]:
         """The sentences at the top, warnings last."""
-        kinds = [verdict.verdict for _, verdict in self.found]
-        implied = kinds.count("IMPLIED")
-        yield f"{kinds.count('VALID')} certificates are VALID."
+        valid, implied = (
+            sum(verdict.verdict == kind for _, verdict in self.found) for kind in GOOD
+        )
+        yield f"{valid} certificates are VALID."
         if implied:
             yield (
                 f"From them follows what stands beside {implied} sentences of the report. What the "

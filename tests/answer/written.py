@@ -13,6 +13,7 @@ from mcexact.analysis.boxes.margins import box_disk_margin
 from mcexact.analysis.boxes.members import box_controllability, box_fixed_modes
 from mcexact.analysis.controllability import exceptional_gains
 from mcexact.analysis.fixed_modes import fixed_spectrum
+from mcexact.analysis.patterns import structural_fixed_modes
 from mcexact.analysis.structure import setpoint_solvability
 from mcexact.answer.protocol import save_certificate
 from mcexact.cli import main
@@ -85,6 +86,7 @@ def write_all(folder: Path) -> None:
     save_certificate(fixed_spectrum(free), place / "parametric_fixed_spectrum.json")
     save_certificate(setpoint_solvability(free), place / "parametric_rank.json")
     unstable = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    save_certificate(structural_fixed_modes(unstable), place / "structural_fixed_modes.json")
     near = Box.relative(unstable, "1/10").system
     place = folder / "with-radii"
     place.mkdir()

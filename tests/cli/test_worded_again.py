@@ -1,6 +1,7 @@
 """Sentences are made again of certificates alone, and one that was changed is not among them."""
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,8 @@ from mcexact.cli import main
 from mcexact.cli.audit import sentences_of
 from mcexact.model import gallery
 
+ALONE = re.compile(r"<tr><td>(?:IMPLIED|INVALID)</td>.*<td></td></tr>")
+"""A row of a page whose sentence was not computed again."""
 FOLDER = Path(gallery.__file__).parent
 PLANTS = ["quadruple-tank-pminus", "liu2020-3ch-no-communication", "feedthrough-that-cancels"]
 
@@ -80,7 +83,7 @@ def test_a_sentence_that_was_changed_is_refused_or_left_to_compare(designed: Pat
         manifest.write_text(json.dumps(document), encoding="utf-8")
         arguments = ["--system", str(designed / "plant.json"), "--html", str(page)]
         status = called("check", str(designed / "loop"), *arguments)
-        return status, page.read_text(encoding="utf-8").count("<td></td></tr>")
+        return status, len(ALONE.findall(page.read_text(encoding="utf-8")))
 
     assert compared("", "", "") == (0, 0)
     assert compared("first-margin", "≥ ", "≥ 1") == (1, 1)
