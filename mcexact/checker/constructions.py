@@ -926,9 +926,9 @@ def error(system: System, step: dict[str, Json], place: str) -> System:
 LINE = "line"
 """The construction that only plants with parameters have, and before all others."""
 LISTED = (arcs, augmented_outputs, closed_loop, dual, error, extended, feedback, full_output)
-LAST = (regulated, restricted, sampled, servo, slow)
+LAST = (periodic_loop, regulated, restricted, sampled, servo, slow)
 MORE = (failed, held, input_filters, integrators, internal_model, lifted, merged, modulo)
-CONSTRUCTIONS = {rule.__name__: rule for rule in (*LISTED, *MORE, periodic_loop, *LAST)}
+CONSTRUCTIONS = {rule.__name__: rule for rule in (*LISTED, *MORE, *LAST)}
 _OTHERS = closed_loop, dual, input_filters, internal_model
 CARRYING = arcs, augmented_outputs, failed, merged, modulo, regulated, restricted, *_OTHERS
 CARRIED = {rule.__name__ for rule in CARRYING}

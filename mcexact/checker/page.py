@@ -17,6 +17,7 @@ from html import escape
 from typing import Any
 
 from .kinds import Found
+from .summaries import RADII
 
 ARCHIVE = "mcexact-checker.pyz"
 GOOD = ("VALID", "IMPLIED")
@@ -287,7 +288,8 @@ def _which(words: str, found: Sequence[Found]) -> str:
         return "the controller at samples" if " sampled " in verdict.statement else "another one"
     if verdict.summary.startswith("of a plant nearby"):
         return "a plant nearby, for which something fails"
-    return "the plant with radii, which make a box around it"
+    box = "the plant with radii, which make a box around it"
+    return box if RADII in verdict.summary else "another one"
 
 
 def bytes_of(path: str) -> Iterator[tuple[str, ...]]:

@@ -56,27 +56,22 @@ class Known:
     because: Json
     following: list[Fraction]
 
-    def cites(self, field: str) -> bool:
-        """Whether a value was read whose pointer ends with a name."""
-        cited = (x for _, pointer, x in self.because if pointer.endswith(f"/{field}"))
-        return any(x is not None for x in cited)
+    def cited(self, *fields: str) -> list[Json]:
+        """The values that were read, whose pointers end with one of some names."""
+        endings = tuple(f"/{field}" for field in fields)
+        return [x for _, pointer, x in self.because if pointer.endswith(endings)]
 
     def lists(self, field: str) -> list[list[Fraction]]:
-        """The lists of numbers that were read, whose pointers end with a name."""
-        cited = (x for _, pointer, x in self.because if pointer.endswith(f"/{field}"))
-        read = ([*map(_rational, x)] for x in cited if isinstance(x, list))
-        return [[x for x in entries if x is not None] for entries in read]
+        """The lists of numbers among the values of a name."""
+        return [_rationals(x) for x in self.cited(field) if isinstance(x, list)]
 
     def named(self, *fields: str) -> list[Fraction]:
-        """The numbers that were read, whose pointers end with one of some names."""
-        endings = tuple(f"/{field}" for field in fields)
-        named = (_rational(x) for _, pointer, x in self.because if pointer.endswith(endings))
-        return [x for x in named if x is not None]
+        """The numbers among the values of some names."""
+        return _rationals(self.cited(*fields))
 
     def values(self, field: str, kind: type[int]) -> list[int]:
-        """The values of a type that were read, whose pointers end with a name."""
-        cited = (x for _, pointer, x in self.because if pointer.endswith(f"/{field}"))
-        return [x for x in cited if type(x) is kind]
+        """The values of a type among those of a name."""
+        return [x for x in self.cited(field) if type(x) is kind]
 
     def of(self, field: str) -> list[Fraction]:
         """The numbers that a field may show.
@@ -132,7 +127,8 @@ def _reached(
             places = _reached(part[1:], text, places, known) | places
         elif part[0] == "if":
             inside = _reached(part[2:], text, places, known)
-            places = inside if known.cites(part[1]) else places
+            there = any(x is not None for x in known.cited(part[1]))
+            places = inside if there else places
         else:
             places = {
                 end: open_ if compared else (*open_, (place, end))
@@ -188,8 +184,7 @@ def _bounds(text: str, place: int, known: Known) -> Iterator[End]:
 
     Where the sentence cites none, the user asked for them, and they are not compared.
     """
-    cited = known.named("bound", *LIMITS)
-    free = not any(pointer.endswith("/bound") for _, pointer, _ in known.because)
+    cited, free = known.named("bound", *LIMITS), not known.cited("bound")
     while bound := BOUND.match(text, place):
         value, rate = _value(bound[2]), "Re" in bound[1]
         limits = [Fraction(0), *(-x for x in cited)] if rate else [Fraction(1), *cited]
@@ -224,12 +219,12 @@ def _diagonal(text: str, place: int, known: list[list[Fraction]]) -> Iterator[En
         return
     multiple, listed = shown[1] or "1", shown[2]
     more = MORE.search(listed or "")
-    first = listed[: more.start()].split(", ") if listed and more else (listed or "").split(", ")
-    values = [_value(x.removeprefix(ROUGHLY)) for x in ([multiple] if listed is None else first)]
+    texts = [multiple] if listed is None else MORE.sub("", listed).split(", ") if listed else []
+    values = [_value(x.removeprefix(ROUGHLY)) for x in texts]
     for entries in known:
-        number = len(entries) if listed is None else len(values) + int(more[1] if more else 0)
-        wanted = [*values, *values[:1] * (len(entries) - 1)] if listed is None else values
-        pairs = zip(wanted, entries, strict=False)
+        first = values * len(entries) if listed is None else values
+        number = len(first) + (int(more[1]) if more else 0)
+        pairs = zip(first, entries, strict=False)
         if number == len(entries) and all(x is not None and _near(x, y) for x, y in pairs):
             yield shown.end(), True
             return
@@ -261,6 +256,11 @@ def _value(shown: str) -> Fraction | None:
         return Fraction(shown) if len(shown) <= MOST_DIGITS else None
     except (ValueError, ZeroDivisionError):
         return None
+
+
+def _rationals(values: Iterable[Json]) -> list[Fraction]:
+    """The numbers among some values."""
+    return [x for x in map(_rational, values) if x is not None]
 
 
 def _rational(value: Json) -> Fraction | None:

@@ -108,7 +108,8 @@ def analyzed(
             "--modulo is about the values of a plant: leave out --uncertainty and "
             "--largest-uncertainty"
         )
-    if asked.pattern and (asked.radii or asked.effort or asked.part):
+    of_numbers = asked.radii or asked.effort or asked.part
+    if asked.pattern and (of_numbers or asked.questions or asked.subset or asked.channel):
         raise UsageError("--pattern is about all numbers: leave out what is about those of a plant")
     if isinstance(typed, ParametricSystem):
         if asked.pattern:

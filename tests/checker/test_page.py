@@ -78,7 +78,7 @@ def test_what_was_asked_and_what_was_found_are_told_apart() -> None:
     found = [
         valid(1, loop, "", plant, controller),
         valid(2, loop, "of a plant nearby: x", other, controller),
-        valid(3, loop, "within the radii", "5" * 64, "6" * 64),
+        valid(3, loop, "for all plants within the radii", "5" * 64, "6" * 64),
         valid(4, "For the plant sampled every 1", "", plant, "7" * 64),
         (
             {"text": "x <\u202e 1: 2", "rule": "r", "premises": "1"},

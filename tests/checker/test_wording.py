@@ -76,6 +76,7 @@ def test_a_field_has_texts_of_its_kind(
         (["1/100", "1/100"], ["1/100 I", "0.01 I"], ["I", "1/10 I", "x I", "diag(1/100)"]),
         ([1, 2], ["diag(1, 2)"], ["I", "diag(2, 1)", "diag()", "diag(1, )"]),
         ([*range(9)], ["diag(0, 1, 2, 6 more)"], ["diag(0, 1, 2, 5 more)"]),
+        ([], ["diag()", "I"], ["diag(1)"]),
         (None, [], ["I", "diag(1)"]),
     ],
 )

@@ -387,7 +387,13 @@ def test_a_pattern_is_asked_about_without_its_numbers(call: Call, tmp_path: Path
 
 @pytest.mark.parametrize(
     "more",
-    [("--uncertainty", "1%"), ("--modulo", "both"), ("--assert", "no-fixed-modes")],
+    [
+        ("--uncertainty", "1%"),
+        ("--modulo", "both"),
+        ("--assert", "no-fixed-modes"),
+        ("--failures",),
+        ("--subset", "1"),
+    ],
 )
 def test_what_needs_numbers_is_not_asked_of_a_pattern(call: Call, more: tuple[str, ...]) -> None:
     status, _, err = call("analyze", UNLINKED, "--pattern", *more)
