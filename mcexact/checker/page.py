@@ -45,6 +45,7 @@ table { border-collapse: collapse; width: 100%; margin: .5rem 0 }
 th, td { border-bottom: 1px solid #8886; padding: .3rem .6rem; text-align: left }
 td { vertical-align: top }
 td { overflow-wrap: anywhere }
+td:first-child { overflow-wrap: normal }
 .warning { border-left: 4px solid #c60; padding-left: .6rem }
 .note, .lead { opacity: .8 }
 .signed td:first-child { width: 8rem }
@@ -277,8 +278,8 @@ class Audit:
         """What each certificate proves, whole, and its SHA-256."""
         for about, verdict in self.found:
             if "text" not in about and verdict.statement and verdict.verdict != "COUNTED":
-                digest = f"SHA-256 {verdict.statement_digest}"
-                yield about.get("number", about["file"]), verdict.statement, digest
+                number, digest = about.get("number", about["file"]), verdict.statement_digest
+                yield number, f"{verdict.statement} (its SHA-256: {digest})"
 
 
 def _which(words: str, found: Sequence[Found]) -> str:
