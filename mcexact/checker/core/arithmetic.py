@@ -777,7 +777,8 @@ def characteristic_polynomial_modulo(A: Rows, ell: int) -> Polynomial:
             rest[0], rest[k] = rest[k], rest[0]
             columns[j + 1], columns[j + 1 + k] = columns[j + 1 + k], columns[j + 1]
             spend(n * long // 4)
-            columns = [_exchanged(column, (j + 1) * bits, k * bits, mask) for column in columns]
+            places = ((j + 1) * bits, k * bits, mask)
+            columns[j + 1 :] = [_exchanged(column, *places) for column in columns[j + 1 :]]
             lower = [_exchanged(x, (j - i) * bits, k * bits, mask) for i, x in enumerate(lower)]
         f = inverse(rest[0], ell) if rest[0] else 0
         current = [0] * (j + 1) + [1] + [f * entry % ell for entry in rest[1:]]
@@ -787,7 +788,7 @@ def characteristic_polynomial_modulo(A: Rows, ell: int) -> Polynomial:
 def _exchanged(column: int, start: int, distance: int, mask: int) -> int:
     """A column in which two entries have changed places."""
     change = (column >> start + distance & mask) - (column >> start & mask)
-    return column + (change << start) - (change << start + distance)
+    return column - ((change << distance) - change << start) if change else column
 
 
 def _hessenberg_polynomial(H: Rows, below: list[int], ell: int) -> Polynomial:
