@@ -65,8 +65,8 @@ MOST_COLUMNS = 256
 # is not 0, and what it takes to begin; together they take about a minute at most.
 MOST_WORK = 2**36
 _STEP, _START = 10**4, 10**8
-# A rank that is another one modulo so many primes is another one over Q.
-_MISSES = 12
+# A rank that is another one modulo two primes of 22 bits is nearly always another one over Q.
+_MISSES = 2
 
 
 @dataclass(frozen=True)
