@@ -63,8 +63,9 @@ from mcexact.model import system as system_forms
 from mcexact.model.loop import closed_loop
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.periodic import periodic_loop, phases_of
+from mcexact.model.signals import followed_outputs
 from mcexact.model.system import MultiChannelSystem, any_system
-from mcexact.model.text import canonical, read_bytes
+from mcexact.model.text import canonical, plain, read_bytes
 from mcexact.processes import Child
 from mcexact.shown import LINE as shown_LINE
 from mcexact.shown import Shown, fitting
@@ -519,6 +520,30 @@ def controller_of_loop(document: Mapping[str, Any]) -> controller.Controller:
     """Read a controller from the plain data of a certificate."""
     text = canonical({"format": controller.FORMAT, "system": "", **document})
     return controller.read_controller(text, _roomy(text))
+
+
+def followed_in(loop: Answer) -> dict[str, Any]:
+    """What a rule repeats of the signals that outputs follow, from a certificate about a loop.
+
+    Returns
+    -------
+    dict
+        ``follows``, as from `followed_outputs` for the regulated outputs of the plant, or for all
+        if it names none; ``outputs``, the numbers of outputs by agent, in the second case alone.
+        Nothing is in it for other systems than the loop of a time-invariant controller.
+    """
+    if [each["construction"] for each in loop.subject[-1:]] != ["closed_loop"]:
+        return {}
+    *made, step = loop.subject
+    system = constructed(loop.about.plant, [plain(each) for each in made])
+    agents = controller_of_loop(step["controller"])
+    each = [(name, system.q(i)) for i, name in enumerate(system.names)]
+    counts = [] if system.regulated else each
+    selection = system.regulated or tuple(Matrix.identity(q) for _, q in counts)
+    return {
+        "follows": followed_outputs(agents, selection),
+        "outputs": [(name, q) for name, q in counts if q],
+    }
 
 
 def _closed_loop(system: MultiChannelSystem, construction: Mapping[str, Any]) -> MultiChannelSystem:

@@ -26,7 +26,7 @@ from mcexact.errors import Impossible, InternalError
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.roots import LIMITS, StabilityRegion, steady_point
-from mcexact.model.signals import signals_in_words
+from mcexact.model.signals import constant_signals, signals_in_words
 from mcexact.plot.eigenvalues import eigenvalues
 
 # Answer: whether all eigenvalues of a matrix meet a rate or a radius.
@@ -593,6 +593,20 @@ def _decided(loop: Claim, context: Context) -> Said:
 def _largest(loop: Claim, context: Context) -> Said:
     if context.largest and loop.stable and loop.bound is not None:
         yield (LEAST if context.region.discrete else LARGEST)(bound=loop.bound)
+
+
+@verdict_rule("table", STEADY, STEADY_REGULATED, STEADY_SIGNALS, premises=("loop",))
+def _followed(loop: Claim, context: Context) -> Said:
+    """What the outputs of the loop follow, by the models of signals in its controller."""
+    if context.has("follows") and loop.stable:
+        for alpha, held in context.follows.items():
+            if alpha != constant_signals(context.time):
+                words = signals_in_words(alpha, context.time)
+                yield STEADY_SIGNALS(held=held, signals=words)
+            elif [(name, len(rows)) for name, rows in held] == context.outputs:
+                yield STEADY()
+            else:
+                yield STEADY_REGULATED(held=held)
 
 
 VERDICT = Rulebook([*VERDICT_RULES, *EVERY_LOOP_RULES])

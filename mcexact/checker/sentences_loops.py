@@ -21,8 +21,8 @@ from .core.reading import Json, polynomial
 from .core.roots import in_stability_region
 from .core.system import System, counted, polynomial_text, quoted, read_matrix, read_radii
 from .discs import Pair, pairs_of
+from .internal_model import Row, Rows, largest_model
 from .kinds import same
-from .parametric_system import common_divisor
 from .sentences import (
     ANOTHER_STEP,
     AT_SAMPLES,
@@ -205,13 +205,10 @@ def _steady_state(loop: Premise) -> str:
     Then all states tend to an equilibrium where nothing that enters varies: a set-point of any
     other agent, too.
     """
-    loop.expect(_is_stable(loop), "the loop is not stable")
-    _, agents = controller([loop])
-    system = controlled(loop)
-    for i, agent in enumerate(agents):
-        rows, q = integrated(system, i, agent), system.C[i].nrows
-        units = {row.index(Fraction(1)) for row in rows if sorted(row) == [0] * (q - 1) + [1]}
-        good = units == set(range(q))
+    system, found = _models(loop)
+    for i, models in enumerate(found):
+        held = [row for row, p in models if _has_constants(p, system)]
+        good = all(unit in held for unit in _units(system.C[i].nrows))
         loop.expect(good, f"agent number {i + 1} does not integrate its outputs less set-points")
     return f"{loop.about}: every output tends to its set-point if {CONSTANT}"
 
@@ -222,12 +219,11 @@ def _steady_regulated(loop: Premise) -> str:
 
     As for all outputs, these then tend to those of the set-points.
     """
-    loop.expect(_is_stable(loop), "the loop is not stable")
-    _, agents = controller([loop])
-    system, held = controlled(loop), []
-    for i, agent in enumerate(agents):
-        rows = [f"({', '.join(map(str, row))})" for row in integrated(system, i, agent)]
-        held += [f"{quoted(agent['name'])}: {', '.join(rows)}"] if rows else []
+    system, found = _models(loop)
+    held = []
+    for i, models in enumerate(found):
+        rows = [_combination(row) for row, p in models if _has_constants(p, system)]
+        held += [f"{quoted(system.names[i])}: {', '.join(rows)}"] if rows else []
     loop.expect(bool(held), "no agent integrates outputs less set-points")
     which = f"these combinations of the outputs of agents, {'; '.join(held)}"
     return f"{loop.about}: {which}, tend to those of the set-points if {CONSTANT}"
@@ -238,73 +234,63 @@ def _steady_signals(loop: Premise) -> str:
     """The loop is stable, and agents have models of signals behind output less reference.
 
     With all that enters a solution of p the loop has one trajectory of solutions of p; in it what
-    drives a model of a multiple of p is 0 (``proofs/internal_model.md``).
+    drives a model of p is 0 (``proofs/internal_model.md``).
     """
-    loop.expect(_is_stable(loop), "the loop is not stable")
-    _, agents = controller([loop])
-    system, held, common = controlled(loop), [], list[Fraction]()
-    for i, agent in enumerate(agents):
-        models = models_of(system, i, agent)
-        rows = [f"({', '.join(map(str, row))})" for row, _ in models]
-        held += [f"{quoted(agent['name'])}: {', '.join(rows)}"] if rows else []
-        for _, p in models:
-            common = common_divisor(common, p) if common else p
-    loop.expect(len(common) > 1, "the agents have no models of the same signals")
-    which = f"these combinations of the outputs of agents, {'; '.join(held)}"
+    system, found = _models(loop)
+    follow = []
+    for i, models in enumerate(found):
+        rows = [f"{_combination(row)} for {polynomial_text(p)}" for row, p in models]
+        follow += [f"{quoted(system.names[i])}: {', '.join(rows)}"] if rows else []
+    loop.expect(bool(follow), "the agents have no models of signals")
     return (
-        f"{loop.about}: {which}, differ from those of the references by what tends to 0 if every "
-        "reference, and every disturbance of the plant, is a solution of "
-        f"{polynomial_text(common)}"
+        f"{loop.about}: these combinations of the outputs of agents differ from those of the "
+        "references by what tends to 0 if every reference, and every disturbance of the plant, is "
+        f"a solution of the polynomial beside the combination, {'; '.join(follow)}"
     )
-
-
-def models_of(system: System, i: int, agent: Json) -> list[tuple[list[Fraction], list[Fraction]]]:
-    """The s and p such that agent i has states z_1, …, z_d with p(d/dt) z_1 = s (y − r).
-
-    These are z_k' = z_{k+1} for k < d, and z_d' = s (y − r) less combinations of them; with next
-    values in place of derivatives in discrete time.
-    """
-    update, k, q = signals(agent["private_update"]), agent["private"], system.C[i].nrows
-    own = update.pop(("outputs", system.names[i]), [[Fraction(0)] * q] * k)
-    reference = update.pop(("reference", ""), [[Fraction(0)] * q] * k)
-    inner = update.pop(("private", ""), [[Fraction(0)] * k] * k)
-    alone = [z for z in range(k) if not any(any(M[z]) for M in update.values())]
-    before = dict[int, int]()
-    for z in alone:
-        used = [j for j, x in enumerate(inner[z]) if x]
-        if not any(own[z]) and not any(reference[z]) and len(used) == 1 and inner[z][used[0]] == 1:
-            before.setdefault(used[0], z)
-    found = []
-    for last in alone:
-        chain, needed = [last], {j for j, x in enumerate(inner[last]) if x}
-        while chain[0] in before and before[chain[0]] not in chain:
-            chain.insert(0, before[chain[0]])
-        difference = own[last] == [-entry for entry in reference[last]]
-        if difference and any(own[last]) and needed <= {*chain}:
-            found.append((own[last], [*(-inner[last][j] for j in chain), Fraction(1)]))
-    return found
 
 
 CONSTANT = "every set-point, and every disturbance of the plant, is constant"
 
 
-def integrated(system: System, i: int, agent: Json) -> list[list[Fraction]]:
-    """The s such that some z of agent i follows z' = s (y − r), or z(t+1) = z + s (y − r).
+def _has_constants(p: Row, system: System) -> bool:
+    """Whether constants are solutions of p."""
+    return (sum(p) if system.time == "discrete" else p[0]) == 0
 
-    r are the set-points of its outputs y: where z is constant, s y = s r.
+
+def _combination(row: Row) -> str:
+    """A combination of outputs."""
+    return f"({', '.join(map(str, row))})"
+
+
+def _units(q: int) -> Rows:
+    """The single outputs."""
+    return [[Fraction(int(a == b)) for b in range(q)] for a in range(q)]
+
+
+def _models(loop: Premise) -> tuple[System, list[list[tuple[Row, Row]]]]:
+    """The system in a stable loop, and what `models_of` says of each agent."""
+    loop.expect(_is_stable(loop), "the loop is not stable")
+    _, agents = controller([loop])
+    system = controlled(loop)
+    return system, [models_of(system, i, agent) for i, agent in enumerate(agents)]
+
+
+def models_of(system: System, i: int, agent: Json) -> list[tuple[Row, Row]]:
+    """The s and p, p of degree ≥ 1, such that agent i has a model of p behind s.
+
+    The s are single outputs, and combinations that enter a private state less those of references.
     """
     update, k, q = signals(agent["private_update"]), agent["private"], system.C[i].nrows
     own = update.pop(("outputs", system.names[i]), [[Fraction(0)] * q] * k)
     reference = update.pop(("reference", ""), [[Fraction(0)] * q] * k)
-    stay = update.pop(("private", ""), [[Fraction(0)] * k] * k)
-    found = []
-    for z in range(k):
-        kept = [int(system.time == "discrete" and j == z) for j in range(k)]
-        alone = stay[z] == kept and not any(any(M[z]) for M in update.values())
-        difference = own[z] == [-entry for entry in reference[z]]
-        if alone and difference and any(own[z]):
-            found.append(own[z])
-    return found
+    inner = update.pop(("private", ""), [[Fraction(0)] * k] * k)
+    others = [[x for M in update.values() for x in M[z]] for z in range(k)]
+    combinations = {tuple(s): s for s in _units(q)}
+    for y, r in zip(own, reference, strict=True):
+        if sum(map(bool, y)) > 1 and r == [-x for x in y]:
+            combinations[tuple(y)] = y
+    found = ((s, largest_model(inner, own, reference, others, s)) for s in combinations.values())
+    return [(s, p) for s, p in found if len(p) > 1]
 
 
 # The loop of a periodic decentralized controller over one period.

@@ -16,7 +16,7 @@ from typing import Any
 
 from mcexact.analysis.boxes.failure import FAILING, FailingPlant
 from mcexact.answer.account import repeated_of
-from mcexact.answer.check import answer_in, controller_of_loop
+from mcexact.answer.check import answer_in, controller_of_loop, followed_in
 from mcexact.answer.listing import TOPICS
 from mcexact.answer.protocol import Answer
 from mcexact.answer.sentence import LOOP, Context, Rule
@@ -68,11 +68,8 @@ _DESIGNS = [
     for network, method, arithmetic in product(
         ("decentralized", "extended", "lifted", "held"), ("network", "observer"), ("exact", "float")
     )
-] + [
-    {follows: None, "held": None, "method": method}
-    for follows in ("solvability", "followed")
-    for method in ("decentralized", "extended", "observer")
 ]
+_METHODS = ("decentralized", "extended", "observer")
 
 
 def sentences_of(answers: Mapping[str, Answer]) -> frozenset[tuple[str, str]]:
@@ -112,25 +109,38 @@ def _contexts(answers: Mapping[str, Answer]) -> Iterator[Context]:
         if isinstance(system, ParametricSystem):
             yield Context(system, repeated_of(system, answers))
         else:
-            for more in _DESIGNS if "region" in facts else ({},):
+            for more in [*_DESIGNS, *_following(facts)] if "region" in facts else ({},):
                 yield Context(system, facts | more)
+
+
+def _following(facts: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+    """What designs may have asked for that follow set-points or other signals."""
+    groups = facts.get("follows", {})
+    asked: list[dict[str, Any]] = [{"solvability": None, "held": None}] * bool(groups)
+    for alpha, held in groups.items():
+        asked += [{"solvability": None, "held": held}, {"followed": alpha, "held": held}]
+    yield from ({"method": method} | each for method, each in product(_METHODS, asked))
 
 
 def _of_loop(answers: Mapping[str, Answer]) -> dict[str, Any]:
     """What sentences about a loop repeat: of the region, its controller, and plants around it."""
-    loop: Any = next((answers[name] for name in LOOP if name in answers), None)
+    loops: list[Any] = [answers[name] for name in LOOP if name in answers]
+    loop: Any = next(iter(loops), None)
     if loop is None or [each["construction"] for each in loop.subject[-1:]] != ["closed_loop"]:
         return {}
     controller, plant = controller_of_loop(loop.subject[-1]["controller"]), loop.about.plant
+    bound = next((each.bound for each in loops if getattr(each, "bound", None)), None)
     names = (agent.name for agent in controller.agents)
     facts: dict[str, Any] = {
-        "region": StabilityRegion.of(loop.about.time, bound=getattr(loop, "bound", None)),
+        "region": StabilityRegion.of(loop.about.time, bound=bound),
         "states": loop.about.n,
         "order": controller.order,
         "bits": controller.bit_length(),
         "dimensions": dict(zip(names, (agent.shared for agent in controller.agents), strict=True)),
         "observer_order": plant.n * plant.m + plant.m - 1,
     }
+    if getattr(loop, "stable", True):
+        facts |= followed_in(loop)
     box: Any = answers.get("box_stability")
     if box is not None:
         facts["part_of_plant"] = Box(box.about.plant).part

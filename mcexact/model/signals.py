@@ -4,20 +4,26 @@ A signal r is a solution of a polynomial α if α(d/dt) r = 0, in discrete time 
 constants are the solutions of s (discrete time: z − 1), ramps of s², sinusoids of ω rad per unit
 of time of s² + ω².  Several signals together are solutions of the least common multiple.  α has
 rational coefficients, so in discrete time a sinusoid is given by the cosine of its angle per step.
+
+`signal_polynomial` reads signals, `signals_in_words` says them, and `followed_outputs` tells which
+ones the outputs of a given controller follow, by the models in its agents.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from functools import reduce
 from math import isqrt
 from typing import Any
 
-from mcexact.errors import InputError, McexactError
+from mcexact.errors import InputError, InternalError, McexactError
+from mcexact.exact.linear_algebra import left_nullspace, nullspace, solve
+from mcexact.exact.matrix import Matrix, hstack, vstack
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import number, parse_rational
-from mcexact.exact.roots import is_discrete, steady_point
+from mcexact.exact.roots import StabilityRegion, is_discrete, steady_point
+from mcexact.model.controller import AgentProgram, Controller
 from mcexact.model.entries import parse_expression
 from mcexact.model.text import kind_of, nearest, quoted
 
@@ -216,3 +222,97 @@ def _root(square: Fraction) -> Fraction | None:
 
 def _text(p: Polynomial, time: str) -> str:
     return str(p).replace("x", _variable(time))
+
+
+def followed_signals(agent: AgentProgram, i: int, s: Matrix) -> Polynomial:
+    """Return the largest polynomial of which an agent has a model behind s (y_i − r_i).
+
+    Parameters
+    ----------
+    agent : AgentProgram
+    i : int
+        Its position.
+    s : Matrix, 1 × q_i
+        A combination of its outputs, not 0.
+
+    Returns
+    -------
+    Polynomial
+        The largest monic p with p(d/dt) v z_i = s (y_i − r_i) for a row v, but for what nothing
+        drives; in discrete time with the shift in place of d/dt.  1 if there is none.  In a stable
+        loop s (y_i − r_i) tends to 0 if all references and disturbances of the plant are solutions
+        of p (``proofs/internal_model.md``, claim 3).
+
+    Notes
+    -----
+    Exact.  Let V span the v such that v z_i, v ż_i, v z̈_i, … depend on z_i and s (y_i − r_i) alone:
+    V ż_i = N V z_i + g s (y_i − r_i).  Then p is the least polynomial with p(N) g = 0.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> from mcexact.model.controller import LinearMap
+    >>> program = LinearMap({0: Matrix.column([0, 3])}, private=Matrix.from_rows([[0, 2], [-2, 0]]),
+    ...                     reference=Matrix.column([0, -3]))
+    >>> agent = AgentProgram("1", 0, 2, private_update=program)
+    >>> print(followed_signals(agent, 0, Matrix.identity(1)))
+    x^2 + 4
+    >>> deaf = AgentProgram("1", 0, 2, private_update=replace(program, reference=None))
+    >>> print(followed_signals(deaf, 0, Matrix.identity(1)))
+    1
+    """
+    update, k, q = agent.private_update, agent.private, s.ncols
+    none = Matrix.zeros(k, q)
+    own, less = update.outputs.get(i, none), update.reference or none
+    place, entry = next((j, x) for j, x in enumerate(s[0]) if x)
+    gains = own.take(cols=[place]) * (1 / entry)
+    error, others = gains @ s, (M for j, M in update.outputs.items() if j != i)
+    disturbing = hstack([own - error, less + error, *others, *update.shared.values()])
+    inner = update.private or Matrix.zeros(k, k)
+    V = left_nullspace(disturbing)
+    while V.nrows:
+        relations = left_nullspace(vstack([V @ inner, V]))
+        if relations.nrows == V.nrows:
+            break
+        V = relations.take(cols=range(V.nrows)) @ V
+    motion = solve(V.T, (V @ inner).T)
+    if motion is None:
+        raise InternalError("an invariant space is not invariant")
+    powers = [V @ gains]
+    while not (relation := nullspace(hstack(powers))).ncols:
+        powers.append(motion.T @ powers[-1])
+    return Polynomial.of(*(row[0] for row in relation.rows())).monic()
+
+
+def followed_outputs(
+    controller: Controller, selection: Sequence[Matrix]
+) -> dict[Polynomial, tuple[tuple[str, tuple[tuple[Fraction, ...], ...]], ...]]:
+    """Tell which signals the agents of a stable loop follow with which combinations of outputs.
+
+    Parameters
+    ----------
+    controller : Controller
+    selection : sequence of m Matrix
+        The combinations S_i.
+
+    Returns
+    -------
+    dict
+        Rows of S_i by the names of agents, for each polynomial of the signals that these follow,
+        without the factors whose solutions tend to 0.
+    """
+    region, rows = StabilityRegion(controller.time), dict[Polynomial, dict[str, list[Any]]]()
+    for i, (agent, S) in enumerate(zip(controller.agents, selection, strict=True)):
+        for k in range(S.nrows):
+            s = S.take(rows=[k])
+            signals = Polynomial.of(1) if s.is_zero() else followed_signals(agent, i, s)
+            lasting = Polynomial.of(1)
+            for p, multiplicity in signals.factor():
+                if not region.contains_roots_of(p):
+                    lasting *= p**multiplicity
+            if lasting.degree:
+                rows.setdefault(lasting, {}).setdefault(agent.name, []).append(s[0])
+    return {
+        alpha: tuple((name, tuple(held)) for name, held in each.items())
+        for alpha, each in rows.items()
+    }

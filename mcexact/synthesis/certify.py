@@ -35,6 +35,7 @@ from mcexact.analysis.stability import (
 )
 from mcexact.answer.account import Account
 from mcexact.answer.boxes import BoxStability
+from mcexact.answer.check import followed_in
 from mcexact.answer.evidence import RootDisc
 from mcexact.answer.listing import VERDICT
 from mcexact.answer.loops import StabilityVerdict
@@ -267,6 +268,8 @@ def account_of_verdict(
     """
     asked = {"region": verdict.region, "states": verdict.about.n, "largest": largest}
     answers: dict[str, Answer] = {verdict.kind: verdict}
+    if verdict.stable:
+        asked |= followed_in(verdict)
     if every_loop is not None:
         answers["box_stability"] = every_loop
         asked |= {"part_of_plant": Box(every_loop.about.plant).part, "part_of_gains": gains}

@@ -108,6 +108,22 @@ def turning(delayed: int) -> Document:
 
 
 TURNS, LAGS = turning(0), turning(1)
+ROTATED = {
+    "outputs": {"1": [[1], [1]]}, "reference": [[-1], [-1]], "private": [[-1, 2], [-1, 1]]
+}  # fmt: skip
+TURNED = changed(
+    TURNS,
+    ("subject.0.controller.agents.0.private_update", ROTATED),
+    ("subject.0.controller.agents.0.input.private", [[1, -2]]),
+)
+"""The same loop, with the states z_1 + z_2 and z_2 of the agent."""
+HEARD = changed(
+    TURNS,
+    ("subject.0.controller.agents.0.private_update.outputs.1", [["-1/2"], [1]]),
+    ("claim.polynomial", ["3/2", "5/2", 2, 1]),
+)
+"""The model, whose first state is driven by the output, too, and not by the reference."""
+WRONG_SIGN = changed(TURNS, ("subject.0.controller.agents.0.private_update.reference", [[0], [1]]))
 
 STABLE = changed(
     LOOP,
@@ -222,8 +238,12 @@ IMPLIED: list[tuple[str, list[Document]]] = [
     ("design-kept", [KEPT_LOOP, document(fixed_spectrum(KEPT))]),
     ("design-steady-state", [TRACKS]),
     ("design-steady-state", [STEPS]),
+    ("design-steady-state", [HALF]),
     *(("design-steady-regulated", [loop]) for loop in (TRACKS, STEPS, HALF)),
-    *(("design-steady-signals", [loop]) for loop in (TRACKS, STEPS, HALF, LEAKS, TURNS)),
+    *(
+        ("design-steady-signals", [loop])
+        for loop in (TRACKS, STEPS, HALF, LEAKS, TURNS, LAGS, TURNED)
+    ),
     ("certify-inside certify-decided certify-largest", [STABLE]),
     ("certify-decided-blocks", [BLOCKS]),
     ("certify-outside refused-outside", [SLOWER]),
@@ -246,10 +266,11 @@ DENIED: list[tuple[str, list[Document]]] = [
     *(("design-region", [loop]) for loop in (LOOP, UNBOUNDED, SLOWER)),
     ("design-kept", [LOOP, SPECTRUM]),
     ("design-kept", [document(fixed_spectrum(KEPT))]),
-    *(("design-steady-state", [loop]) for loop in (LOOP, HALF, LEAKS, DEAF, DOUBLES, GROWS)),
+    *(("design-steady-state", [loop]) for loop in (LOOP, LEAKS, DEAF, DOUBLES, GROWS)),
     *(("design-steady-regulated", [loop]) for loop in (LOOP, LEAKS, DEAF, DOUBLES, GROWS, SLOWER)),
-    *(("design-steady-signals", [loop]) for loop in (LOOP, DEAF, DOUBLES, GROWS, SLOWER, LAGS)),
-    *(("design-steady-regulated design-steady-state", [loop]) for loop in (TURNS, LAGS)),
+    *(("design-steady-signals", [loop]) for loop in (LOOP, DEAF, DOUBLES, GROWS, SLOWER)),
+    *(("design-steady-signals", [loop]) for loop in (HEARD, WRONG_SIGN)),
+    *(("design-steady-regulated design-steady-state", [loop]) for loop in (TURNS, LAGS, TURNED)),
     ("design-steady-state", [SLOWER]),
     ("certify-decided-blocks", [LOOP]),
     ("certify-outside refused-outside certify-least", [STABLE]),
