@@ -52,11 +52,12 @@ of its time.
 
 without = fixed_spectrum.without_fixed_mode
 SECOND = (
-    ("no fixed mode", without, 0, (4, 60, 200, 500, 1000)),
-    ("planted fixed mode", fixed_spectrum.planted, 0, (4, 60)),
-    ("chains with a fixed mode", every_question.chains, 2, (200, 500, 1000)),
+    ("no fixed mode", without, 0, "", (4, 60, 200, 500, 1000)),
+    ("planted fixed mode", fixed_spectrum.planted, 0, " with a fixed mode", (4, 60)),
+    ("planted fixed mode", fixed_spectrum.planted, 0, " with a fixed mode by gains", (200, 500)),
+    ("chains with a fixed mode", every_question.chains, 2, " with a fixed mode", (200, 500, 1000)),
 )
-"""Plants of the second checker.  By gains it reads fixed modes of at most 60 states."""
+"""Plants of the second checker."""
 
 PARTS: Mapping[str, Callable[[], Iterator[Row]]] = {
     **{
@@ -69,10 +70,10 @@ PARTS: Mapping[str, Callable[[], Iterator[Row]]] = {
         for n, limit in ((500, 0.5), (1000, 2), (2000, 15))
     },
     **{
-        f"second checker {n} states{' with a fixed mode' * (make != without)}": partial(
+        f"second checker {n} states{name}": partial(
             fixed_spectrum.second_rows, plant, partial(make, n + added)
         )
-        for plant, make, added, sizes in SECOND
+        for plant, make, added, name, sizes in SECOND
         for n in sizes
     },
     **{

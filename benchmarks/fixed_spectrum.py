@@ -224,7 +224,7 @@ def without_fixed_mode(n: int) -> MultiChannelSystem:
 
 
 def planted(n: int) -> MultiChannelSystem:
-    """A plant with a fixed mode, which up to 60 states is proved by gains."""
+    """A plant with a fixed mode, which is proved by gains."""
     return system_with_fixed_mode(SeededChoices(n), states=n, channels=max(n // 4, 2)).system
 
 

@@ -23,6 +23,7 @@ let regions g =
   record "ZRegions" [ z g.g_w; bool g.g_continuous; list bool g.g_stable; list (list disc) g.g_discs; bool g.g_stabilizable; rate ]
 let similar w = record "Similar" [ matrix w.h_H; matrix w.h_L; matrix w.h_Y ]
 let loop w = record "LoopWitness" [ z w.w_ell; z w.w_inv; list matrix w.w_gains; similar w.w_similar ]
+let power w = record "Power" [ z w.pw_inv; row w.pw_q; row w.pw_r; nat w.pw_place; z w.pw_unit ]
 let exponent x = record "ExponentWitness" [ row x.x_w; row x.x_q; row x.x_r; z x.x_k ]
 let premises y =
   record "FactorPremises" [ nat y.y_fixed; nat y.y_coprime; nat y.y_simple; nat y.y_most; nat y.y_low; nat y.y_spectrum; exponent y.y_exponent ]
@@ -45,11 +46,14 @@ let rule = function
   | RSpectrum (t, f, w) -> record "RSpectrum" [ subject t; row f; record "SpectrumWitness" [ row w.s_ds; matrix w.s_N; list residue w.s_moduli ] ]
   | RMoved (t, g, c) -> record "RMoved" [ subject t; row g; record "MovedWitness" [ loop c.mv_loop; z c.mv_inv; row c.mv_u; row c.mv_v ] ]
   | RAtMost (t, p, e, c) ->
-    record "RAtMost" [ subject t; row p; nat e; record "PowerWitness" [ loop c.pw_loop; z c.pw_inv; row c.pw_q; row c.pw_r; nat c.pw_place; z c.pw_unit ] ]
+    record "RAtMost" [ subject t; row p; nat e; record "PowerWitness" [ loop c.pw_loop; power c.pw_power ] ]
   | RLow (t, p, d, c) ->
     record "RLow" [ subject t; row p; nat d; record "LowWitness" [ loop c.lw_loop; matrix c.lw_B0; matrix c.lw_C0; z c.lw_inv; row c.lw_u; row c.lw_v ] ]
   | RAllBlocks (t, c, place, ys) -> record "RAllBlocks" [ subject t; claim c; nat place; list premises ys ]
   | RAllTwo (t, c, spectrum, g, moved, ys) -> record "RAllTwo" [ subject t; claim c; nat spectrum; row g; nat moved; list premises ys ]
+  | RAllLarge (t, c, w, ys) ->
+    record "RAllLarge" [ subject t; claim c; record "LargeWitness" [ loop w.lg_loop; similar w.lg_similar; list power w.lg_powers; row w.lg_psi;
+      row w.lg_u; row w.lg_v; z w.lg_D; matrix w.lg_N; z w.lg_r; row w.lg_H ]; list premises ys ]
 
 let option write = function None -> "None" | Some x -> "(Some " ^ write x ^ ")"
 
@@ -167,7 +171,7 @@ let file digest s subject t =
        "From Coq Require Import ZArith.";
        "From mathcomp Require Import all_ssreflect all_algebra.";
        "From mcexact Require Import multichannel completeness.";
-       "From mcexact.kernel Require Import lists systems residues krylov_rule shrunk_rule coprime_rule blocks_rule hessenberg_rule spectrum_rule loop_rule fixed_rule regions_rule facts reach_rule arcs_rule setpoint_rule program_rule kinds.";
+       "From mcexact.kernel Require Import lists systems residues krylov_rule shrunk_rule coprime_rule blocks_rule hessenberg_rule spectrum_rule loop_rule fixed_rule large_rule regions_rule facts reach_rule arcs_rule setpoint_rule program_rule kinds.";
        "";
        define ("plant", "zsystem", system_text s) ]
      @ List.map define t.definitions

@@ -253,6 +253,26 @@ let coprime run l p q =
 
 let rec product = function [] -> [ Z.one ] | f :: rest -> Kernel.zpmul f.Kernel.f_p (product rest)
 
+(* That all fixed modes are roots of the factors, by a large l: psi is what is left of det(xI - A_F). *)
+let large (s : Kernel.zsystem) l factors lg_loop lg_powers psi =
+  let n = s.Kernel.zn and i = lg_loop.Kernel.w_inv in
+  let similar = Modular.hessenberg l (List.map (List.map (fun x -> Z.erem (Z.mul i x) l)) s.Kernel.zA) in
+  let u, v = Modular.bezout l psi (Modular.characteristic l n similar) in
+  let common = List.fold_left (List.fold_left Z.gcd) s.Kernel.zD s.Kernel.zA in
+  let d = Z.divexact s.Kernel.zD common in
+  let rows = List.map (List.map (fun x -> Z.divexact x common)) s.Kernel.zA in
+  let eighth = Kernel.zsquare (Kernel.zsquare (Kernel.zsquare rows)) in
+  let most = List.fold_left Z.max Z.zero in
+  let sums = Z.min (most (List.map Kernel.zabs_sum eighth)) (most (Kernel.zcolumn_sums eighth)) in
+  let root x = if Z.sign x = 0 then x else Z.succ (Z.sqrt (Z.pred x)) in
+  let f = Kernel.zexcess n factors in
+  let scaled, _ = List.fold_right (fun x (h, power) ->
+      let q, r = Z.div_rem (Z.mul power x) (Modular.lead f) in
+      if Z.sign r <> 0 then invalid "witness.modulus" "a factor is not integral beside A";
+      (q :: h, Z.mul power d)) f ([], Z.one) in
+  { Kernel.lg_loop; lg_similar = similar; lg_powers; lg_psi = psi; lg_u = u; lg_v = v; lg_D = d; lg_N = rows;
+    lg_r = root (root (root sums)); lg_H = scaled }
+
 (* The rules that prove the claim of the kind `fixed_spectrum`. *)
 let fixed_spectrum (s : Kernel.zsystem) known (claim : Kernel.zclaim) value =
   let run = { rules = []; count = 0 } in
@@ -260,17 +280,17 @@ let fixed_spectrum (s : Kernel.zsystem) known (claim : Kernel.zclaim) value =
   let spectrum = lazy (let f, w = Modular.spectrum s.Kernel.zD s.Kernel.zA in (f, add run (Kernel.RSpectrum ([], f, w)))) in
   let blocks = match value with Json.Object l -> List.mem_assoc "blocks" l | _ -> false in
   let subspaces spaces = Json.items ~length:(List.length factors) "witness.subspaces" spaces in
-  let premises ell simple bounds f rest space =
+  let premises ell separate simple bounds f rest space =
     let y_fixed = add run (loss s known f.Kernel.f_p (n - f.Kernel.f_rank) "witness.subspaces" space) in
-    let y_coprime = if simple then coprime run ell f.Kernel.f_p (product rest) else 0 in
+    let y_coprime = if separate then coprime run ell f.Kernel.f_p (product rest) else 0 in
     let y_simple = if simple then coprime run ell f.Kernel.f_p (derivative f.Kernel.f_p) else 0 in
     let y_spectrum, y_exponent = match f.Kernel.f_in_A with
       | None -> (0, no_exponent)
       | Some a -> let g, k = Lazy.force spectrum in (k, exponent g f.Kernel.f_p a) in
     let y_most, y_low = bounds f in
     { Kernel.y_fixed; y_coprime; y_simple; y_most; y_low; y_spectrum; y_exponent } in
-  let rec each ell simple bounds fs spaces = match fs, spaces with
-    | f :: fs, space :: spaces -> let y = premises ell simple bounds f fs space in y :: each ell simple bounds fs spaces
+  let rec each ell separate simple bounds fs spaces = match fs, spaces with
+    | f :: fs, space :: spaces -> let y = premises ell separate simple bounds f fs space in y :: each ell separate simple bounds fs spaces
     | _ -> [] in
   if blocks then begin
     match Json.fields "witness" [ "blocks"; "modulus"; "subspaces" ] value with
@@ -279,15 +299,13 @@ let fixed_spectrum (s : Kernel.zsystem) known (claim : Kernel.zclaim) value =
       let bounded = read_blocks run s known "witness.blocks" parts in
       if factors = [] && number <> Json.Null then invalid "witness.modulus" "expected null: no factors";
       let ell = if factors = [] then Z.of_int 2 else modulus "witness.modulus" number in
-      let ys = each ell true (fun _ -> (0, 0)) factors spaces in
+      let ys = each ell true true (fun _ -> (0, 0)) factors spaces in
       ignore (add run (Kernel.RAllBlocks ([], claim, bounded, ys)))
     | _ -> assert false
   end
   else begin
     match Json.fields "witness" [ "gains"; "modulus"; "subspaces"; "completion" ] value with
     | [ given; number; spaces; completion ] ->
-      if List.exists (fun f -> f.Kernel.f_in_A = None) factors then
-        incomplete "claim.factors" "gains and a large modulus, without multiplicities in A, are not verified here";
       let ell = modulus "witness.modulus" number in
       let all = List.map (fun _ -> true) s.Kernel.zchannels in
       let gains = gains "witness.gains" ell s.Kernel.zchannels all given in
@@ -302,29 +320,44 @@ let fixed_spectrum (s : Kernel.zsystem) known (claim : Kernel.zclaim) value =
           | [ b; c ] -> (residues_over ell (matrix "witness.completion.B0" n rho b), residues_over ell (matrix "witness.completion.C0" rho n c))
           | _ -> assert false in
         let w, chi = with_polynomial s ell gains in
-        let completed = Hashtbl.create 4 in
-        let bounds f =
-          let p = f.Kernel.f_p and d = n - f.Kernel.f_rank in
-          let inv = Modular.inverse ell (Modular.lead p) in
-          let monic = List.map (fun x -> Z.erem (Z.mul inv x) ell) p in
+        let divided f polynomial k =
+          let inv = Modular.inverse ell (Modular.lead f.Kernel.f_p) in
+          let monic = List.map (fun x -> Z.erem (Z.mul inv x) ell) f.Kernel.f_p in
           let rec reduce q k = if k = 0 then q else
               match Modular.divide ell q monic with q, [] -> reduce q (k - 1) | _ -> invalid "claim.factors" "not the largest multiplicity" in
-          let q, r = Modular.divide ell (reduce chi f.Kernel.f_most) monic in
+          (inv, monic, reduce polynomial k) in
+        let power f =
+          let inv, monic, rest = divided f chi f.Kernel.f_most in
+          let q, r = Modular.divide ell rest monic in
           let rec first i = function [] -> (0, Z.zero) | x :: rest -> if Z.sign x <> 0 then (i, Modular.inverse ell x) else first (i + 1) rest in
           let pw_place, pw_unit = first 0 r in
-          let most = add run (Kernel.RAtMost ([], p, f.Kernel.f_most, { Kernel.pw_loop = w; pw_inv = inv; pw_q = q; pw_r = r; pw_place; pw_unit })) in
-          let take k l = List.filteri (fun i _ -> i < k) l in
-          let b = List.map (take d) b0 and c = take d c0 in
-          let start = { Kernel.lw_loop = w; lw_B0 = b; lw_C0 = c; lw_inv = inv; lw_u = []; lw_v = [] } in
-          if not (Hashtbl.mem completed d) then begin
+          { Kernel.pw_inv = inv; pw_q = q; pw_r = r; pw_place; pw_unit } in
+        let lows = Hashtbl.create 4 in
+        (* One fact for all factors with the same rank. *)
+        let low f =
+          let d = n - f.Kernel.f_rank in
+          if not (Hashtbl.mem lows d) then begin
+            let p = product (List.filter (fun g -> g.Kernel.f_rank = f.Kernel.f_rank) factors) in
+            let take k l = List.filteri (fun i _ -> i < k) l in
+            let inv = Modular.inverse ell (Modular.lead p) in
+            let start = { Kernel.lw_loop = w; lw_B0 = List.map (take d) b0; lw_C0 = take d c0; lw_inv = inv; lw_u = []; lw_v = [] } in
             let similar = Modular.hessenberg ell (Kernel.completed s start) in
-            Hashtbl.add completed d (similar, Modular.characteristic ell n similar)
+            let u, v = Modular.bezout ell p (Modular.characteristic ell n similar) in
+            Hashtbl.add lows d (add run (Kernel.RLow ([], p, d, { start with Kernel.lw_loop = { w with Kernel.w_similar = similar }; lw_u = u; lw_v = v })))
           end;
-          let similar, polynomial = Hashtbl.find completed d in
-          let u, v = Modular.bezout ell p polynomial in
-          let low = add run (Kernel.RLow ([], p, d, { start with Kernel.lw_loop = { w with Kernel.w_similar = similar }; lw_u = u; lw_v = v })) in
-          (most, low) in
-        let ys = each ell false bounds factors spaces in
+          Hashtbl.find lows d in
+        let most f = add run (Kernel.RAtMost ([], f.Kernel.f_p, f.Kernel.f_most, { Kernel.pw_loop = w; pw_power = power f })) in
+        let unsaid = List.filter (fun f -> f.Kernel.f_in_A = None) factors in
+        if unsaid <> [] then begin
+          if List.length unsaid < List.length factors then invalid "claim.factors" "expected multiplicities in A, or none";
+          let lg_powers = List.map power factors in
+          let psi = List.fold_left (fun f g -> let _, _, rest = divided g f g.Kernel.f_most in rest) chi factors in
+          let ys = each ell true false (fun f -> (0, low f)) factors spaces in
+          let witness = large s ell factors w lg_powers psi in
+          ignore (add run (Kernel.RAllLarge ([], claim, witness, ys)))
+        end else begin
+        let bounds f = let most = most f in (most, low f) in
+        let ys = each ell false false bounds factors spaces in
         let rec separate = function f :: rest -> ignore (Modular.bezout ell f.Kernel.f_p (product rest)); separate rest | [] -> () in
         separate factors;
         let f_A, place = Lazy.force spectrum in
@@ -337,6 +370,7 @@ let fixed_spectrum (s : Kernel.zsystem) known (claim : Kernel.zclaim) value =
         let u, v = Modular.bezout ell g chi in
         let moved = add run (Kernel.RMoved ([], g, { Kernel.mv_loop = w; mv_inv = Modular.inverse ell (Modular.lead g); mv_u = u; mv_v = v })) in
         ignore (add run (Kernel.RAllTwo ([], claim, place, g, moved, ys)))
+        end
       end
     | _ -> assert false
   end;

@@ -3,7 +3,7 @@
    mcexact.kernel.regions_rule, say what the claim means. *)
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
-From mcexact.kernel Require Import lists systems residues krylov_rule shrunk_rule coprime_rule blocks_rule hessenberg_rule spectrum_rule loop_rule fixed_rule regions_rule facts.
+From mcexact.kernel Require Import lists systems residues krylov_rule shrunk_rule coprime_rule blocks_rule hessenberg_rule spectrum_rule loop_rule fixed_rule large_rule regions_rule facts.
 
 Definition plant : zsystem := (ZSystem 4 1%coqZ [:: [:: 1%coqZ; (-24)%coqZ; 0%coqZ; 1%coqZ]; [:: 1%coqZ; (-20)%coqZ; 0%coqZ; 1%coqZ]; [:: 1%coqZ; 0%coqZ; (-20)%coqZ; 1%coqZ]; [:: 1%coqZ; 0%coqZ; (-24)%coqZ; 1%coqZ]] [:: (ZChannel 1 2 [:: [:: 2%coqZ]; [:: 0%coqZ]; [:: 0%coqZ]; [:: 0%coqZ]] [:: [:: 1%coqZ; 0%coqZ; 0%coqZ; 0%coqZ]; [:: 0%coqZ; 1%coqZ; 0%coqZ; 0%coqZ]]); (ZChannel 1 2 [:: [:: 0%coqZ]; [:: 0%coqZ]; [:: 0%coqZ]; [:: 2%coqZ]] [:: [:: 0%coqZ; 0%coqZ; 1%coqZ; 0%coqZ]; [:: 0%coqZ; 0%coqZ; 0%coqZ; 1%coqZ]])] [::]).
 Definition claim : zclaim := (ZClaim [:: 20%coqZ; 1%coqZ] [:: (ZFactor [:: 20%coqZ; 1%coqZ] (Some 1) 1 [:: false; false] 3)]).

@@ -3,7 +3,7 @@
    mcexact.kernel.regions_rule, say what the claim means. *)
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
-From mcexact.kernel Require Import lists systems residues krylov_rule shrunk_rule coprime_rule blocks_rule hessenberg_rule spectrum_rule loop_rule fixed_rule regions_rule facts.
+From mcexact.kernel Require Import lists systems residues krylov_rule shrunk_rule coprime_rule blocks_rule hessenberg_rule spectrum_rule loop_rule fixed_rule large_rule regions_rule facts.
 
 Definition plant : zsystem := (ZSystem 7 100000%coqZ [:: [:: (-100000)%coqZ; 0%coqZ; 0%coqZ; 0%coqZ; 0%coqZ; 0%coqZ; 0%coqZ]; [:: 100000%coqZ; 0%coqZ; 0%coqZ; 0%coqZ; 0%coqZ; 0%coqZ; 0%coqZ]; [:: 0%coqZ; 100000%coqZ; 0%coqZ; 0%coqZ; 0%coqZ; 0%coqZ; 0%coqZ]; [:: 0%coqZ; 0%coqZ; 0%coqZ; 0%coqZ; 0%coqZ; 0%coqZ; 0%coqZ]; [:: 0%coqZ; 0%coqZ; 0%coqZ; 100000%coqZ; (-100000)%coqZ; 0%coqZ; 0%coqZ]; [:: (-8800)%coqZ; 3450%coqZ; 0%coqZ; 0%coqZ; 100000%coqZ; (-320)%coqZ; 0%coqZ]; [:: 0%coqZ; 0%coqZ; 5000%coqZ; 0%coqZ; 0%coqZ; 0%coqZ; (-1)%coqZ]] [:: (ZChannel 1 1 [:: [:: 100000%coqZ]; [:: 0%coqZ]; [:: 0%coqZ]; [:: 0%coqZ]; [:: 0%coqZ]; [:: 0%coqZ]; [:: 0%coqZ]] [:: [:: 0%coqZ; 0%coqZ; 100000%coqZ; 0%coqZ; 0%coqZ; 0%coqZ; 0%coqZ]]); (ZChannel 1 3 [:: [:: 0%coqZ]; [:: 0%coqZ]; [:: 0%coqZ]; [:: 9000%coqZ]; [:: 0%coqZ]; [:: 0%coqZ]; [:: 0%coqZ]] [:: [:: 0%coqZ; 100000%coqZ; 0%coqZ; 0%coqZ; 0%coqZ; 0%coqZ; 0%coqZ]; [:: 0%coqZ; 0%coqZ; 0%coqZ; 0%coqZ; 0%coqZ; 0%coqZ; 100000%coqZ]; [:: 0%coqZ; 0%coqZ; 0%coqZ; 0%coqZ; 0%coqZ; 100000%coqZ; 0%coqZ]])] [::]).
 Definition claim : zclaim := (ZClaim [:: 1%coqZ; 100000%coqZ] [:: (ZFactor [:: 1%coqZ; 100000%coqZ] (Some 1) 1 [:: true; false] 6)]).

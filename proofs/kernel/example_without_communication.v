@@ -3,7 +3,7 @@
    mcexact.kernel.regions_rule, say what the claim means. *)
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
-From mcexact.kernel Require Import lists systems residues krylov_rule shrunk_rule coprime_rule blocks_rule hessenberg_rule spectrum_rule loop_rule fixed_rule regions_rule facts.
+From mcexact.kernel Require Import lists systems residues krylov_rule shrunk_rule coprime_rule blocks_rule hessenberg_rule spectrum_rule loop_rule fixed_rule large_rule regions_rule facts.
 
 Definition plant : zsystem := (ZSystem 3 1%coqZ [:: [:: 1%coqZ; 0%coqZ; 0%coqZ]; [:: 0%coqZ; 1%coqZ; 0%coqZ]; [:: 0%coqZ; 1%coqZ; 1%coqZ]] [:: (ZChannel 1 2 [:: [:: 1%coqZ]; [:: 0%coqZ]; [:: 0%coqZ]] [:: [:: 1%coqZ; 0%coqZ; 0%coqZ]; [:: 0%coqZ; 0%coqZ; 1%coqZ]]); (ZChannel 1 1 [:: [:: 0%coqZ]; [:: 1%coqZ]; [:: 0%coqZ]] [:: [:: 0%coqZ; 1%coqZ; 0%coqZ]]); (ZChannel 1 1 [:: [:: 1%coqZ]; [:: 0%coqZ]; [:: 0%coqZ]] [:: [:: 0%coqZ; 1%coqZ; 0%coqZ]])] [::]).
 Definition claim : zclaim := (ZClaim [:: (-1)%coqZ; 1%coqZ] [:: (ZFactor [:: (-1)%coqZ; 1%coqZ] (Some 3) 1 [:: false; true; true] 2)]).

@@ -8,7 +8,7 @@ From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import multichannel fixed_bound.
 From mcexact.kernel Require Import lists systems residues krylov_rule shrunk_rule coprime_rule blocks_rule.
-From mcexact.kernel Require Import hessenberg_rule spectrum_rule loop_rule fixed_rule regions_rule.
+From mcexact.kernel Require Import hessenberg_rule spectrum_rule loop_rule fixed_rule large_rule regions_rule.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -60,7 +60,8 @@ Inductive rule :=
  | RAtMost of subject & zrow & nat & power_witness
  | RLow of subject & zrow & nat & low_witness
  | RAllBlocks of subject & zclaim & nat & seq factor_premises
- | RAllTwo of subject & zclaim & nat & zrow & nat & seq factor_premises.
+ | RAllTwo of subject & zclaim & nat & zrow & nat & seq factor_premises
+ | RAllLarge of subject & zclaim & large_witness & seq factor_premises.
 
 Fixpoint part_bounds (e : env) (t : subject) (blk : seq nat) (k : nat) (ps : seq nat) : option nat :=
   if ps is p :: ps' then
@@ -83,12 +84,20 @@ Fixpoint all_simple s e (fs : seq zfactor) (ys : seq factor_premises) : bool :=
   | f :: fs', y :: ys' => [&& (1 < size (f_p f))%N, f_most f == (zn s - f_rank f)%N, is_coprime e (y_simple y) (f_p f) (zderivative (f_p f)),
       is_coprime e (y_coprime y) (f_p f) (zproduct fs') & all_simple s e fs' ys']
   | _, _ => true end.
-Fixpoint all_bounded s t e (fs : seq zfactor) (ys : seq factor_premises) : bool :=
+Fixpoint all_separate e (fs : seq zfactor) (ys : seq factor_premises) : bool :=
+  match fs, ys with f :: fs', y :: ys' => is_coprime e (y_coprime y) (f_p f) (zproduct fs') && all_separate e fs' ys' | _, _ => true end.
+Fixpoint all_most t e (fs : seq zfactor) (ys : seq factor_premises) : bool :=
   match fs, ys with
   | f :: fs', y :: ys' =>
-    [&& match premise e (y_most y) with (t', AtMost g k) => [&& t' == t, zeq g (f_p f) & k == f_most f] | _ => false end,
-        match premise e (y_low y) with (t', Low g d) => [&& t' == t, zeq g (f_p f) & d == (zn s - f_rank f)%N] | _ => false end &
-        all_bounded s t e fs' ys']
+    match premise e (y_most y) with (t', AtMost g k) => [&& t' == t, zeq g (f_p f) & k == f_most f] | _ => false end && all_most t e fs' ys'
+  | _, _ => true end.
+(* Of all factors with the same rank one fact says that no pencil loses more. *)
+Definition same_rank (fs : seq zfactor) (f : zfactor) : zrow := zproduct [seq g <- fs | f_rank g == f_rank f].
+Fixpoint all_low s t e (all fs : seq zfactor) (ys : seq factor_premises) : bool :=
+  match fs, ys with
+  | f :: fs', y :: ys' =>
+    match premise e (y_low y) with (t', Low g d) => [&& t' == t, zeq g (same_rank all f) & d == (zn s - f_rank f)%N] | _ => false end &&
+    all_low s t e all fs' ys'
   | _, _ => true end.
 Definition check_all_blocks s t (e : env) (c : zclaim) pb ys : bool :=
   [&& all_known s t e (c_factors c) ys, all_simple s e (c_factors c) ys, same_up_to_scale (c_poly c) (zproduct (c_factors c)) &
@@ -96,9 +105,13 @@ Definition check_all_blocks s t (e : env) (c : zclaim) pb ys : bool :=
     | (t', Bounded L) => (t' == t) && (zn s <= L + sumn [seq (zn s - f_rank f) * (size (f_p f)).-1 | f <- c_factors c])%N
     | _ => false end].
 Definition check_all_two s t (e : env) (c : zclaim) ps g pm ys : bool :=
-  [&& all_known s t e (c_factors c) ys, all_bounded s t e (c_factors c) ys, same_up_to_scale (c_poly c) (zproduct (c_factors c)),
+  [&& all_known s t e (c_factors c) ys, all_most t e (c_factors c) ys && all_low s t e (c_factors c) (c_factors c) ys, same_up_to_scale (c_poly c) (zproduct (c_factors c)),
     match premise e ps with (t', Spectrum f) => (t' == t) && same_up_to_scale f (zpowers (c_factors c) g) | _ => false end &
     match premise e pm with (t', Moved g') => (t' == t) && zeq g' g | _ => false end].
+
+Definition check_all_large s t (e : env) (c : zclaim) w ys : bool :=
+  [&& all_known s t e (c_factors c) ys, all_separate e (c_factors c) ys, all_low s t e (c_factors c) (c_factors c) ys,
+    same_up_to_scale (c_poly c) (zproduct (c_factors c)) & check_large s (c_factors c) w].
 
 Definition step (s0 : zsystem) (e : env) (r : rule) : option (subject * fact) :=
   match r with
@@ -120,7 +133,8 @@ Definition step (s0 : zsystem) (e : env) (r : rule) : option (subject * fact) :=
   | RAtMost t g k c => if check_at_most (resolve s0 t) g k c then Some (t, AtMost g k) else None
   | RLow t g d c => if check_low (resolve s0 t) g d c then Some (t, Low g d) else None
   | RAllBlocks t c pb ys => if check_all_blocks (resolve s0 t) t e c pb ys then Some (t, AllFixed c) else None
-  | RAllTwo t c ps g pm ys => if check_all_two (resolve s0 t) t e c ps g pm ys then Some (t, AllFixed c) else None end.
+  | RAllTwo t c ps g pm ys => if check_all_two (resolve s0 t) t e c ps g pm ys then Some (t, AllFixed c) else None
+  | RAllLarge t c w ys => if check_all_large (resolve s0 t) t e c w ys then Some (t, AllFixed c) else None end.
 Fixpoint run s (e : env) (rs : seq rule) : option env :=
   if rs is r :: rs' then if step s e r is Some f then run s (rcons e f) rs' else None else Some e.
 
@@ -179,15 +193,33 @@ have [sf sep] := IH ys kfs sy rest; have l0 := kn_lead kf; split; split=> //; la
 split; last by rewrite most /loss en.
 have c0 := up_coprime l0 (is_coprimeP h cs); by rewrite (eqp_coprimepr _ (eqp_deriv_up h l0)).
 Qed.
-Lemma all_boundedP fs ys : size ys = size fs -> all_bounded s t e fs ys ->
-  each (fun f => ~ (forall F, up K (f_p f) ^+ (f_most f).+1 %| char_poly (closed_loop S F))) fs /\
+Lemma all_separateP fs ys : each (known S) fs -> size ys = size fs -> all_separate e fs ys -> separate K fs.
+Proof.
+elim: fs ys => [|f fs IH] [|y ys] //= [kf kfs] [sy] /andP[cc /(IH _ kfs sy) sep]; split=> //.
+by rewrite (eqp_coprimepr _ (zproductE h kfs)); apply: (up_coprime (kn_lead kf)); apply: is_coprimeP cc.
+Qed.
+Lemma all_mostP fs ys : size ys = size fs -> all_most t e fs ys ->
+  each (fun f => ~ (forall F, up K (f_p f) ^+ (f_most f).+1 %| char_poly (closed_loop S F))) fs.
+Proof.
+elim: fs ys => [|f fs IH] [|y ys] //= [sy] /andP[am /(IH _ sy) rest]; split=> //.
+move: am; have := @ok (y_most y); case: (premise e _) => t' [| | | | |g k| |] //= c /and3P[/eqP et /zeqP <- /eqP <-].
+by rewrite et in c; apply: (c K h _ _ _ _ _ re).
+Qed.
+Lemma root_same_rank fs f lambda : ~~ Z.eqb (last z0 (f_p f)) 0 -> List.In f fs -> root (up K (f_p f)) lambda -> root (up K (same_rank fs f)) lambda.
+Proof.
+move=> l0 fin; rewrite (eqp_root (up_eqp h l0)) => rt; rewrite /root /up hornerZ mulf_eq0; apply/orP; right.
+suff : root (pol [comRingType of K] (same_rank fs f)) lambda by [].
+rewrite /same_rank; elim: fs fin => //= g fs IH [->|/IH fin]; first by rewrite eqxx /zproduct /= pol_mul rootM rt.
+by case: ifP => // _; rewrite /zproduct /= pol_mul rootM fin orbT.
+Qed.
+Lemma all_lowP all fs ys : each (known S) all -> (forall f, List.In f fs -> List.In f all) -> size ys = size fs -> all_low s t e all fs ys ->
   each (fun f => forall T lambda, root (up K (f_p f)) lambda -> (n <= \rank (pencil S T lambda) + loss n f)%N) fs.
 Proof.
-have en := re_n re; elim: fs ys => [|f fs IH] [|y ys] //= [sy] /and3P[am lw /(IH _ sy)[h1 h2]]; do !split=> //.
-- move: am; have := @ok (y_most y); case: (premise e _) => t' [| | | | |g k| |] //= c /and3P[/eqP et /zeqP <- /eqP <-].
-  by rewrite et in c; apply: (c K h _ _ _ _ _ re).
-- move: lw; have := @ok (y_low y); case: (premise e _) => t' [| | | | | |g d|] //= c /and3P[/eqP et /zeqP <- /eqP ed].
-  by have <- : d = loss n f by [rewrite ed /loss en]; rewrite et in c; apply: (c K h _ _ _ _ _ re).
+have en := re_n re; move=> kn; elim: fs ys => [|f fs IH] [|y ys] //= inn [sy] /andP[lw /(IH _ (fun g gin => inn g (or_intror gin)) sy) rest].
+split=> // T lambda rt.
+have fin := inn f (or_introl erefl); have := root_same_rank (kn_lead (each_in kn fin)) fin rt.
+move: lw; have := @ok (y_low y); case: (premise e _) => t' [| | | | | |g d|] //= c /and3P[/eqP et /zeqP eg /eqP ed].
+have <- : d = loss n f by [rewrite ed /loss en]; rewrite et in c; rewrite -eg; exact: (c K h _ _ _ _ _ re).
 Qed.
 Lemma check_all_blocksP c pb ys : check_all_blocks s t e c pb ys -> claim_holds S c.
 Proof.
@@ -197,16 +229,27 @@ by apply: (claim_by_blocks h (bd K h _ _ _ _ _ re) kf sf sep same); rewrite /los
 Qed.
 Lemma check_all_twoP c ps g pm ys : check_all_two s t e c ps g pm ys -> claim_holds S c.
 Proof.
-case/and5P=> /all_knownP[kf sy] /(all_boundedP sy)[most low] same.
+case/and5P=> /all_knownP[kf sy] /andP[/(all_mostP sy) most /(all_lowP kf (fun f => id) sy) low] same.
 have := @ok ps; case: (premise e ps) => t' [| | |f| | | |] //= cA /andP[/eqP et sameA]; rewrite et in cA.
 have := @ok pm; case: (premise e pm) => t2 [| | | |g'| | |] //= cM /andP[/eqP et2 /zeqP eg]; rewrite et2 eg in cM.
 exact: (claim_by_two h (cA K h _ _ _ _ _ re) kf sameA (cM K h _ _ _ _ _ re) most low same).
 Qed.
 End Sound.
 
+Lemma check_all_largeP s0 e t (K : fieldType) (h : {rmorphism rat -> K}) n m (p q : 'I_m -> nat) (S : multichannel K n p q) c w ys :
+  sized_system s0 -> all_hold s0 e -> represents (resolve s0 t) S -> check_all_large (resolve s0 t) t e c w ys -> claim_holds S c.
+Proof.
+move=> sz ok re /and5P[known' sep low same large].
+have each' (K' : fieldType) (h' : {rmorphism rat -> K'}) (S' : multichannel K' n p q) : represents (resolve s0 t) S' ->
+    [/\ each (known S') (c_factors c), size ys = size (c_factors c) & separate K' (c_factors c)].
+  by move=> re'; have [kf sy] := all_knownP ok h' re' known'; split=> //; exact: (all_separateP sz ok h' kf sy sep).
+have [kf sy _] := each' K h S re; apply: (claim_by_confined h kf _ (check_large_most h re large) (all_lowP ok h re kf (fun f => id) sy low) same).
+by apply: (check_large_confined h re large) => K' h' S' /each'[].
+Qed.
+
 Lemma step_sound s0 e r f : sized_system s0 -> all_hold s0 e -> step s0 e r = Some f -> holds (resolve s0 f.1) f.2.
 Proof.
-move=> sz ok; case: r => [t|t c|t c|t g c d|t g c d|t Z D g c d|t Z D g c d|f1 g c|t blk ps|t g w|t g c|t g k c|t g d c|t c pb ys|t c ps g pm ys] /=.
+move=> sz ok; case: r => [t|t c|t c|t g c d|t g c d|t Z D g c d|t Z D g c d|f1 g c|t blk ps|t g w|t g c|t g k c|t g d c|t c pb ys|t c ps g pm ys|t c w ys] /=.
 - by case=> <- K h n m p q S re; apply: nothing_bounded.
 - by case ch: check_krylov => // -[<-] K h n m p q S re; apply: (check_krylov_sound ch h re).
 - by case ch: check_two => // -[<-] K h n m p q S re; rewrite /= -(re_n re); apply: (check_two_sound h re ch).
@@ -224,7 +267,8 @@ move=> sz ok; case: r => [t|t c|t c|t g c d|t g c d|t Z D g c d|t Z D g c d|f1 g
 - by case ch: check_at_most => // -[<-] K h n m p q S re; apply: (check_at_most_sound h re ch).
 - by case ch: check_low => // -[<-] K h n m p q S re; apply: (check_low_sound h re ch).
 - by case ch: check_all_blocks => // -[<-] K h n m p q S re; apply: (check_all_blocksP sz ok h re ch).
-by case ch: check_all_two => // -[<-] K h n m p q S re; apply: (check_all_twoP ok h re ch).
+- by case ch: check_all_two => // -[<-] K h n m p q S re; apply: (check_all_twoP ok h re ch).
+by case ch: check_all_large => // -[<-] K h n m p q S re; exact: (check_all_largeP h sz ok re ch).
 Qed.
 
 Theorem run_sound s rs e e' : sized_system s -> all_hold s e -> run s e rs = Some e' -> all_hold s e'.

@@ -179,6 +179,19 @@ by rewrite /t hornerXsubC subrr mulr0 eqxx.
 Qed.
 End Blocks.
 
+(* All fixed modes are roots of the factors, each of which is bounded by itself. *)
+Theorem claim_by_confined (c : zclaim) : each known (c_factors c) ->
+  (forall lambda, fixed S lambda -> root (\prod_(f <- c_factors c) up (f_p f)) lambda) ->
+  each (fun f => ~ (forall F, up (f_p f) ^+ (f_most f).+1 %| char_poly (closed_loop S F))) (c_factors c) ->
+  each (fun f => forall t lambda, root (up (f_p f)) lambda -> (n <= \rank (pencil S t lambda) + loss f)%N) (c_factors c) ->
+  same_up_to_scale (c_poly c) (zproduct (c_factors c)) -> claim_holds c.
+Proof.
+move=> kf among most low same; split=> [lambda|f fin].
+  by rewrite (polynomial_roots kf same); split=> [/among//|/root_product[f fin rt]]; exact: (fixed_factor (each_in kf fin) rt).
+have kn := each_in kf fin; split; [exact: (each_in most fin)|move=> lambda rt|exact: kn_in_A kn].
+by apply: (rank_of kn _ rt) => t; apply: (each_in low fin).
+Qed.
+
 Section Two.
 (* g is what is left of det(xI - A) without the factors, which have the exponents f_in_A there. *)
 Definition exponent_in_A f := odflt 0%N (f_in_A f).
@@ -192,22 +205,19 @@ Theorem claim_by_two (c : zclaim) f_A g : char_poly (mcA S) = up f_A -> each kno
   each (fun f => forall t lambda, root (up (f_p f)) lambda -> (n <= \rank (pencil S t lambda) + loss f)%N) (c_factors c) ->
   same_up_to_scale (c_poly c) (zproduct (c_factors c)) -> claim_holds c.
 Proof.
-move=> eA kf same [F cop] most low samec; split=> [lambda|f fin].
-  rewrite (polynomial_roots kf samec); split=> [fx|/root_product[f fin rt]]; last exact: (fixed_factor (each_in kf fin) rt).
-  have rA : root (char_poly (mcA S)) lambda.
-    have := fx (fun=> 0); rewrite eigenvalue_root_char /closed_loop big1 ?addr0 // => i _; by rewrite mulmx0 mul0mx.
-  have rF : root (char_poly (closed_loop S F)) lambda by rewrite -eigenvalue_root_char.
-  have [f0 g0 e] := same_up_to_scaleP h same.
-  have : root (pol (zpowers (c_factors c) g)) lambda.
-    have -> : root (pol (zpowers (c_factors c) g)) lambda = root (up f_A) lambda; last by rewrite -eA.
-    apply: eqp_root; apply: eqp_trans (_ : pol (zpowers (c_factors c) g) %= pol f_A) _; last by rewrite eqp_sym /up eqp_scale // invr_eq0.
-    by apply/eqpP; exists (phi (last z0 f_A), phi (last z0 (zpowers (c_factors c) g))) => //=; rewrite f0 g0.
-  rewrite zpowersE rootM => /orP[|rg]; last by have := coprimep_root cop rg; rewrite (eqP rF) eqxx.
-  elim: (c_factors c) kf => [|f fs IH] /=; first by rewrite !big_nil.
-  case=> kn kfs; rewrite !big_cons !rootM => /orP[|/(IH kfs)->]; last by rewrite orbT.
-  by rewrite /root horner_exp expf_eq0 => /andP[_ rt]; rewrite -[_ == 0]/(root (up (f_p f)) lambda) (eqp_root (up_eqp h (kn_lead kn))) [root _ _]rt.
-have kn := each_in kf fin; split; [exact: (each_in most fin)|move=> lambda rt|exact: kn_in_A kn].
-by apply: (rank_of kn _ rt) => t; apply: (each_in low fin).
+move=> eA kf same [F cop] most low; apply: claim_by_confined => // lambda fx.
+have rA : root (char_poly (mcA S)) lambda.
+  have := fx (fun=> 0); rewrite eigenvalue_root_char /closed_loop big1 ?addr0 // => i _; by rewrite mulmx0 mul0mx.
+have rF : root (char_poly (closed_loop S F)) lambda by rewrite -eigenvalue_root_char.
+have [f0 g0 e] := same_up_to_scaleP h same.
+have : root (pol (zpowers (c_factors c) g)) lambda.
+  have -> : root (pol (zpowers (c_factors c) g)) lambda = root (up f_A) lambda; last by rewrite -eA.
+  apply: eqp_root; apply: eqp_trans (_ : pol (zpowers (c_factors c) g) %= pol f_A) _; last by rewrite eqp_sym /up eqp_scale // invr_eq0.
+  by apply/eqpP; exists (phi (last z0 f_A), phi (last z0 (zpowers (c_factors c) g))) => //=; rewrite f0 g0.
+rewrite zpowersE rootM => /orP[|rg]; last by have := coprimep_root cop rg; rewrite (eqP rF) eqxx.
+elim: (c_factors c) kf => [|f fs IH] /=; first by rewrite !big_nil.
+case=> kn kfs; rewrite !big_cons !rootM => /orP[|/(IH kfs)->]; last by rewrite orbT.
+by rewrite /root horner_exp expf_eq0 => /andP[_ rt]; rewrite -[_ == 0]/(root (up (f_p f)) lambda) (eqp_root (up_eqp h (kn_lead kn))) [root _ _]rt.
 Qed.
 End Two.
 End Claim.

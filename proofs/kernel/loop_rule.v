@@ -30,16 +30,17 @@ Definition check_two (s : zsystem) (c : two_witness) : bool :=
   let: (l, i) := (w_ell (tw_loop c), w_inv (tw_loop c)) in
   [&& check_loop s (tw_loop c), check_similar l (zn s) (zscale_mod l i (zA s)) (tw_similar c) &
       bezout_modulo l (tw_u c) (zchar l (h_H (tw_similar c)) (zn s)) (tw_v c) (loop_polynomial s (tw_loop c))].
-(* p^(e+1) does not divide det(xI - A_F): this is p^e (q p + r) modulo l, r of less degree than p, with a
-   coefficient that is a unit. *)
-Record power_witness := PowerWitness { pw_loop : loop_witness; pw_inv : Z; pw_q : zrow; pw_r : zrow;
-  pw_place : nat; pw_unit : Z }.
+(* p^(e+1) does not divide f: this is p^e (q p + r) modulo l, r of less degree than p, with a coefficient that is a unit. *)
+Record power := Power { pw_inv : Z; pw_q : zrow; pw_r : zrow; pw_place : nat; pw_unit : Z }.
+Definition zmonic (l i : Z) (p : zrow) : zrow := head [::] (zscale_mod l i [:: p]).
+Definition check_power (l : Z) (f p : zrow) (e : nat) (c : power) : bool :=
+  let monic := zmonic l (pw_inv c) p in
+  [&& Z.ltb 0 (last z0 p), inverse_modulo l (last z0 p) (pw_inv c), (size (pw_r c) < size p)%N,
+      inverse_modulo l (nth z0 (pw_r c) (pw_place c)) (pw_unit c) &
+      zero_mod l (zaxpy (-1) (zpmul (zppow monic e) (zaxpy 1 (zpmul (pw_q c) monic) (pw_r c))) f)].
+Record power_witness := PowerWitness { pw_loop : loop_witness; pw_power : power }.
 Definition check_at_most (s : zsystem) (p : zrow) (e : nat) (c : power_witness) : bool :=
-  let l := w_ell (pw_loop c) in
-  let monic := head [::] (zscale_mod l (pw_inv c) [:: p]) in
-  [&& check_loop s (pw_loop c), Z.ltb 0 (last z0 p), inverse_modulo l (last z0 p) (pw_inv c),
-      (size (pw_r c) < size p)%N, inverse_modulo l (nth z0 (pw_r c) (pw_place c)) (pw_unit c) &
-      zero_mod l (zaxpy (-1) (zpmul (zppow monic e) (zaxpy 1 (zpmul (pw_q c) monic) (pw_r c))) (loop_polynomial s (pw_loop c)))].
+  check_loop s (pw_loop c) && check_power (w_ell (pw_loop c)) (loop_polynomial s (pw_loop c)) p e (pw_power c).
 (* No root of p is an eigenvalue of A_F + B0 C0, with d columns and rows. *)
 Record low_witness := LowWitness { lw_loop : loop_witness; lw_B0 : zmat; lw_C0 : zmat; lw_inv : Z; lw_u : zrow; lw_v : zrow }.
 Definition completed (s : zsystem) (c : low_witness) : zmat :=
@@ -49,6 +50,28 @@ Definition check_low (s : zsystem) (p : zrow) (d : nat) (c : low_witness) : bool
   [&& sized_loop s (lw_loop c), (size (lw_C0 c) <= d)%N, ~~ Z.eqb (last z0 p) 0, check_similar l (zn s) (completed s c) (w_similar (lw_loop c)),
       inverse_modulo l (last z0 p) (lw_inv c) &
       bezout_modulo l (lw_u c) p (lw_v c) (zchar l (h_H (w_similar (lw_loop c))) (zn s))].
+
+Lemma map_up (K : fieldType) (h : {rmorphism rat -> K}) g : map_poly h (up [fieldType of rat] g) = up K g.
+Proof. by rewrite /up map_polyZ fmorphV map_phi map_pol. Qed.
+(* The monic polynomial of a list, over the rationals with denominators prime to l. *)
+Lemma local_monic lz (l1 : (1 < lz)%coqZ) g i : (0 < last z0 g)%coqZ -> inverse_modulo lz (last z0 g) i ->
+  exists P : {poly Zloc (modulus_of l1)}, [/\ P \is monic, map_poly (@residue _) P = pol [comRingType of 'Z_(modulus_of l1)] (zmonic lz i g) &
+    map_poly (@Zloc_rat _) P = up [fieldType of rat] g].
+Proof.
+move=> g0 /andP[_ /Z.eqb_eq inv]; pose l := modulus_of l1; pose h := [rmorphism of @idfun rat].
+have gnz : ~~ Z.eqb (last z0 g) 0 by apply/negP => /Z.eqb_eq e0; move: (g0); rewrite e0.
+pose P : {poly Zloc l} := \poly_(t < size g) ToZloc (ratz_integral l1 g0 inv (nth z0 g t)).
+have Pt t : P`_t = ToZloc (ratz_integral l1 g0 inv (nth z0 g t)).
+  rewrite coef_poly; case: ltnP => // gt; apply: val_inj; by rewrite /= /ratz nth_default // mul0r.
+have ratP : map_poly (@Zloc_rat l) P = up [fieldType of rat] g.
+  apply/polyP=> t; rewrite coef_map Pt upE.
+  have := into_local l1 g0 inv h 1 t.+1 [:: g] => /matrixP/(_ 0 ord_max); by rewrite !mxE.
+exists P; split=> //.
+  rewrite monicE -(inj_eq (@Zloc_rat_inj l)) rmorph1 -(monicP (up_monic h gnz)) -ratP lead_coef_map_inj ?rmorph0 //.
+  exact: Zloc_rat_inj.
+apply/polyP=> t; rewrite coef_map Pt polE.
+have := residue_local l1 g0 inv 1 t.+1 [:: g] => /matrixP/(_ 0 ord_max); by rewrite !mxE.
+Qed.
 
 Section Loop.
 Variables (s : zsystem) (K : fieldType) (h : {rmorphism rat -> K}) (n m : nat) (p q : 'I_m -> nat) (S : multichannel K n p q).
@@ -112,26 +135,14 @@ have bd := @coprime_bounded _ _ _ _ _ (loop_system ok) _ h (loop_gains ok) _ _ b
 exact: (local_bounded re erefl bd).
 Qed.
 
-Theorem check_at_most_sound g e c : check_at_most s g e c ->
+Theorem check_power_sound w g e c : check_loop s w -> check_power (w_ell w) (loop_polynomial s w) g e c ->
   ~ (forall F : gains K p q, up K g ^+ e.+1 %| char_poly (closed_loop S F)).
 Proof.
-case/and5P=> /andP[ok okS] /Z.ltb_lt g0 invg sr /andP[nzr ze] all; rewrite /loop_polynomial -(re_n re) in okS ze.
+case/andP=> ok okS /and5P[/Z.ltb_lt g0 invg sr nzr ze] all; rewrite /loop_polynomial -(re_n re) in okS ze.
 have gnz : ~~ Z.eqb (last z0 g) 0 by apply/negP => /Z.eqb_eq e0; move: (g0); rewrite e0.
-have /andP[_ /Z.eqb_eq inv] := invg; set l1 := loop_modulus ok; pose l := modulus_of l1; pose Zl := [comRingType of 'Z_l].
-pose P : {poly Zloc l} := \poly_(t < size g) ToZloc (ratz_integral l1 g0 inv (nth z0 g t)).
-have Pt t : P`_t = ToZloc (ratz_integral l1 g0 inv (nth z0 g t)).
-  rewrite coef_poly; case: ltnP => // gt; apply: val_inj; by rewrite /= /ratz nth_default // mul0r.
-have resP : map_poly (@residue l) P = pol Zl (head [::] (zscale_mod (w_ell (pw_loop c)) (pw_inv c) [:: g])).
-  apply/polyP=> t; rewrite coef_map Pt polE.
-  have := residue_local l1 g0 inv 1 t.+1 [:: g] => /matrixP/(_ 0 ord_max); by rewrite !mxE.
-have intoP : map_poly (into h) P = up K g.
-  apply/polyP=> t; rewrite coef_map Pt upE.
-  have := into_local l1 g0 inv h 1 t.+1 [:: g] => /matrixP/(_ 0 ord_max); by rewrite !mxE.
-have mP : P \is monic.
-  have mK : map_poly (into h) P \is monic.
-    by rewrite intoP (up_monic h).
-  rewrite monicE -subr_eq0 -(into_eq0 h) rmorphB rmorph1 subr_eq0 -(monicP mK) lead_coef_map_inj //; last by rewrite rmorph0.
-  exact: into_inj.
+set l1 := loop_modulus ok; pose l := modulus_of l1; pose Zl := [comRingType of 'Z_l].
+have [P [mP resP ratP]] := local_monic l1 g0 invg.
+have intoP : map_poly (into h) P = up K g by rewrite map_poly_into ratP map_up.
 have := all (field_gains ok); rewrite -field_loop -map_char_poly -intoP.
 apply/negP; apply: (multiplicity_at_most h mP) => -[r].
 rewrite (residue_char (loop_residuesE ok) okS) resP.
@@ -150,6 +161,9 @@ have R0 : R = 0.
 have /andP[_ /Z.eqb_eq ui] := nzr; have := inverse_unit l1 ui; rewrite -(polE Zl) -/R R0 coef0 mulr0 => /eqP.
 by rewrite eq_sym oner_eq0.
 Qed.
+Theorem check_at_most_sound g e c : check_at_most s g e c ->
+  ~ (forall F : gains K p q, up K g ^+ e.+1 %| char_poly (closed_loop S F)).
+Proof. by case/andP; apply: check_power_sound. Qed.
 
 Theorem check_low_sound g d c : check_low s g d c ->
   forall t lambda, root (up K g) lambda -> (n <= \rank (pencil S t lambda) + d)%N.
