@@ -185,6 +185,17 @@ have T0 : (inord 0 : 'I_3) \notin [set inord 1] by rewrite !inE -val_eqE /= !ino
 have [c eC] := outputs_e2 algebraic T0; rewrite map_plant leqNgt.
 by rewrite /pencil /= ltnS (rank_at_agent2 eC).
 Qed.
+(* any sharing: over the ring nothing stays; where nobody hears anybody 1 stays, however many states are shared *)
+Example any_sharing_ring (lambda : algC) : ~ fixed_over f (augmented_outputs (closure N3) plant) lambda.
+Proof. by move/(any_sharing f N3_own plant lambda).2/(_ one_each); exact: theorem_2_example. Qed.
+Example any_sharing_alone k : fixed_over f (extended alone3 k plant) (1 : algC).
+Proof.
+move: k; apply/(any_sharing f alone3_hears plant 1); apply/anderson_clements_over; exists [set inord 1].
+rewrite (rank_augmented f plant) /neighbor_pencil (closed_closure (alone3_closed _)).
+have T0 : (inord 0 : 'I_3) \notin [set inord 1] by rewrite !inE -val_eqE /= !inordK.
+have [c eC] := outputs_e2 algebraic T0; rewrite -/(pencil (map_system f plant) [set inord 1] 1) map_plant.
+by rewrite /pencil /= ltnS (rank_at_agent2 eC).
+Qed.
 Example theorem_2_any_graph_example : forall lambda : algC, ~ fixed_over f (extended N3 one_each plant) lambda.
 Proof.
 apply: (theorem_2_any_graph N3_own example_closed_full) => i s lambda _ el.
