@@ -15,6 +15,7 @@ from mcexact.analysis.stability import matrix_system
 from mcexact.derived.constructions import (
     along_line,
     augmented_outputs,
+    closure,
     dual,
     error_system,
     extended_system,
@@ -52,6 +53,7 @@ __all__ = [
     "along_line",
     "augmented_outputs",
     "c2d",
+    "closure",
     "dual",
     "error_system",
     "extended_system",

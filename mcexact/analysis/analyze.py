@@ -519,6 +519,13 @@ class Analysis(ShownByAccount):
         return augmented_outputs(self._own)
 
     @cached_property
+    def shared(self) -> MultiChannelSystem:
+        """Return the plant with the outputs of all agents from which a path leads to an agent."""
+        from mcexact.derived.constructions import augmented_outputs, closure
+
+        return augmented_outputs(closure(self._own))
+
+    @cached_property
     def minimal(self) -> MultiChannelSystem:
         """Return a minimal realization of the system that is asked about."""
         from mcexact.analysis.modulo import modulo
@@ -666,7 +673,11 @@ class Analysis(ShownByAccount):
                 self._asked.add("linked_fixed_spectrum")
             elif self._has_decentralized_modes(outcomes):
                 self._asked.add("quotient_fixed_spectrum")
-                if self._few_links_are_found_soon():
+                if self._few_links_are_found_soon() and not self.plant.neighbors:
+                    self._asked.add("minimal_communication")
+            if self._some_agents_receive_too_little(outcomes.get("fixed_spectrum")):
+                self._asked.add("shared_fixed_spectrum")
+                if self._few_links_are_found_soon() and not self._has_joint_modes(outcomes):
                     self._asked.add("minimal_communication")
             if self._has_joint_modes(outcomes):
                 self._asked.add("minimal_fixed_spectrum")
@@ -717,7 +728,7 @@ class Analysis(ShownByAccount):
     def _few_links_are_found_soon(self) -> bool:
         """Whether the plant is so small that the fewest links are asked for without the option."""
         plant = self.plant
-        if "minimal_communication" not in self.questions or plant.neighbors or plant.subject:
+        if "minimal_communication" not in self.questions or plant.subject:
             return False
         return plant.m <= _LINKED_CHANNELS and plant.n <= _LINKED_STATES
 
@@ -727,6 +738,19 @@ class Analysis(ShownByAccount):
         linked = self.information == "own" and graph is not None and graph.edges()
         known = spectrum is not None and not isinstance(spectrum, LimitReached)
         return bool(linked and known and not spectrum.empty)
+
+    def _some_agents_receive_too_little(self, spectrum: Any) -> bool:
+        """Whether modes are fixed, and the links of the plant do not connect all agents."""
+        graph, question = self.plant.neighbors, self.questions.get("shared_fixed_spectrum")
+        if question is None or graph is None or not graph.edges() or graph.is_strongly_connected():
+            return False
+
+        def fixes(outcome: Any) -> bool:
+            return isinstance(outcome, Answer) and not getattr(outcome, "empty", True)
+
+        if not fixes(spectrum) or question.reason_to_leave_out(self.plant):
+            return False
+        return self.information != "own" or fixes(self._outcome("linked_fixed_spectrum"))
 
     @property
     def answers(self) -> dict[str, Any]:

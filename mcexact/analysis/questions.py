@@ -76,9 +76,10 @@ class Question:
         Module of `mcexact.analysis` and function, separated by a colon.
     help : str
         A clause that says what is decided.
-    about : {"system", "plant", "linked", "minimal", "quotient", "lifted", "held"}
+    about : {"system", "plant", "linked", "shared", "minimal", "quotient", "lifted", "held"}
         What is asked about.  "plant" is the plant, "linked" the plant with the outputs that agents
-        receive over the graph, and "system" the one or the other, as the caller chooses what agents
+        receive over the graph, "shared" with those of all agents from which a path leads to them,
+        and "system" the one or the other, as the caller chooses what agents
         feed back.  "minimal" is a minimal realization of "system", and "quotient" has the
         channels of each strong component of its transfer graph merged.  "lifted" and "held" are the
         plant with sub-states shared over links with delays, "held" with sub-states that are shared
@@ -227,6 +228,15 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             "which modes stay fixed where each agent also feeds back the outputs of its neighbors; "
             "by default if some mode is fixed without these",
             about="linked",
+            needs="neighbors",
+            by_default=False,
+            kind="fixed_spectrum",
+        ),
+        "shared_fixed_spectrum": Question(
+            "fixed_modes:fixed_spectrum",
+            "which modes stay fixed however much agents share over the graph; by default if some "
+            "mode is fixed and the graph is not strongly connected",
+            about="shared",
             needs="neighbors",
             by_default=False,
             kind="fixed_spectrum",

@@ -80,6 +80,21 @@ UNCONTROLLED = Template(
 UNOBSERVED = Template(
     "fixed-mode-unobserved", _BLAME + ": all channels together do not observe {p:them}.", _PBH
 )
+WHATEVER_SHARED = f"any_graph.any_sharing, {_PBH}"
+RECEIVE_TOO_LITTLE = (
+    "{inside:agents} {inside:receive} from no other agent and {inside:do} not observe {p:them}, "
+    "and {outside:agents} {outside:do} not control {p:them}"
+)
+STAYS_SHARED = Template(
+    "stays-shared",
+    f"No sharing over the neighbor graph moves {{p:modes}}: {RECEIVE_TOO_LITTLE}.",
+    WHATEVER_SHARED,
+)
+FREE_SHARED = Template(
+    "free-shared",
+    "If the agents share enough states over the neighbor graph, no mode is fixed{time:instant}.",
+    "any_graph.any_sharing",
+)
 LINKS = {
     False: Template(
         "links",
@@ -226,6 +241,11 @@ SETPOINT_FEWER = Template(
 CONNECTED = Template("neighbor-graph-connected", "strongly connected", label="neighbor graph")
 NOT_CONNECTED = Template(
     "neighbor-graph-not-connected", "not strongly connected", label="neighbor graph"
+)
+SOURCES = Template(
+    "source-components",
+    "{parts:components}: no link leads into these from other agents",
+    label="source components",
 )
 _ENOUGH = "sufficient to share"
 ENOUGH = {
@@ -439,6 +459,42 @@ def _stabilized(fixed_spectrum: Claim, context: Context) -> Said:
         if by == "own" and context.neighbors is not None and context.neighbors.edges():
             by = "alone"
         yield template(control=by, slowest=slowest(fixed_spectrum, context))
+
+
+@analysis_rule(
+    "answer",
+    STAYS_SHARED,
+    FREE_SHARED,
+    premises=("shared_fixed_spectrum", "joint_controllability", "joint_observability"),
+)
+def _shared(
+    shared_fixed_spectrum: Claim,
+    joint_controllability: Claim,
+    joint_observability: Claim,
+    context: Context,
+) -> Said:
+    """What stays over the links of a graph that is not strongly connected, and by which agents.
+
+    Modes that all agents together do not control or observe are left to other sentences.
+    """
+    if empty(shared_fixed_spectrum):
+        yield FREE_SHARED(time=context.delays)
+        return
+    reach = (joint_controllability, joint_observability)
+    lost = [claim.uncontrollable_polynomial for claim in reach]
+    for factor in shared_fixed_spectrum.factors.separately():
+        p, (inside, outside) = factor.polynomial, sides(factor, context)
+        if inside and outside and all(p.gcd(q).degree == 0 for q in lost):
+            yield STAYS_SHARED(p=p, inside=inside, outside=outside)
+
+
+def sides(factor: Claim, context: Context) -> tuple[list[str], list[str]]:
+    """The agents from which paths lead to those that do not observe a mode, and the others.
+
+    The latter do not control it.
+    """
+    inside = context.receiving(factor.channels)
+    return inside, [name for name in context.names if name not in inside]
 
 
 def fewest(links: Claim) -> bool:

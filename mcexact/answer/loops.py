@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, Literal
 
-from mcexact.answer.analysis import Said
+from mcexact.answer.analysis import RECEIVE_TOO_LITTLE, WHATEVER_SHARED, Said, sides
 from mcexact.answer.protocol import LEFT_OUT, Answer, Part, answer, claim, witness
 from mcexact.answer.sentence import Certified, Claim, Context, Rulebook
 from mcexact.answer.templates import Template
@@ -670,29 +670,17 @@ FIXED_SHARED = Template(
     + " (shared dimensions {sizes:dimensions})",
     "evidence.shrunk_subspace_fixed_dynamic",
 )
-_LACK = (
-    ": {agents:agents} {agents:need} {k:count shared state} of other agents, and can receive from "
-    "{senders:names}"
-)
-NO_DIMENSIONS = Template(
-    "refused-no-dimensions",
-    "no shared dimensions allow linear time-invariant control to move the modes that are not fast "
-    "enough" + _LACK,
-    "extended_bound.extended_no_fixed, extended_bound.extended_states_no_fixed",
-)
-NOT_CONTROLLED, NOT_OBSERVED = (
-    Template(
-        f"refused-sharing-in-vain-{verb}",
-        "no sharing allows linear time-invariant control to move {p:modes}: all agents "
-        f"together do not {verb} {{p:them}}",
-        "extended_bound.extended_no_fixed, extended_bound.extended_states_no_fixed",
-    )
-    for verb in ("control", "observe")
+OVER_LINKS = Template(
+    "refused-over-links",
+    "no sharing over the neighbor graph lets linear time-invariant control move {p:modes}, "
+    f"{{p:escape}} {{region:region}}: {RECEIVE_TOO_LITTLE}",
+    WHATEVER_SHARED,
 )
 NO_CONNECTION = Template(
     "refused-no-connection",
-    "no shared dimensions make the transfer graph of the extended system strongly connected"
-    + _LACK,
+    "no shared dimensions make the transfer graph of the extended system strongly connected: "
+    "{agents:agents} {agents:need} {k:count shared state} of other agents, and can receive from "
+    "{senders:names}",
     "transfer_graph.zero_transfer_cut",
 )
 REFUSED_OUTSIDE = Template(
@@ -819,6 +807,17 @@ def _fixed(fixed_spectrum: Claim, context: Context) -> Said:
             return
 
 
+@refusal_rule("over links", OVER_LINKS, premises=("fixed_spectrum",))
+def _over_links(fixed_spectrum: Claim, context: Context) -> Said:
+    """The first mode outside the region that stays however much is shared."""
+    for factor in fixed_spectrum.factors.separately():
+        inside, outside = sides(factor, context)
+        if inside and outside and not context.region.contains_roots_of(factor.polynomial):
+            p, region = factor.polynomial, context.region
+            yield OVER_LINKS(p=p, region=region, inside=inside, outside=outside)
+            return
+
+
 @refusal_rule("models", MODELS_ALONE, premises=("fixed_spectrum",))
 def _models_alone(fixed_spectrum: Claim, context: Context) -> Said:
     """The fixed modes outside of the region, of the plant or of the signals."""
@@ -834,29 +833,15 @@ def _integrators_fixed(fixed_spectrum: Claim, context: Context) -> Said:
         yield context.template(p=fixed_spectrum.polynomial)
 
 
-@refusal_rule(
-    "dimensions",
-    NO_DIMENSIONS,
-    NOT_CONTROLLED,
-    NOT_OBSERVED,
-    NO_CONNECTION,
-    premises=("shared_dimensions",),
-)
-def _no_dimensions(shared_dimensions: Claim, context: Context) -> Said:
+@refusal_rule("connection", NO_CONNECTION, premises=("shared_dimensions",))
+def _no_connection(shared_dimensions: Claim, context: Context) -> Said:
     """A set of agents that need shared states and receive from no other agent."""
     if shared_dimensions.feasible:
         return
     for cut in shared_dimensions.proof.cuts.separately():
-        subset, senders = cut.subset, context.senders(cut.subset)
-        if senders:
-            continue
-        template, p, k = NO_CONNECTION, None, 1
-        if cut.has("polynomial"):
-            template, p, k = NO_DIMENSIONS, cut.polynomial, cut.deficiency
-            if len(subset) in {0, context.m}:
-                template = NOT_OBSERVED if subset else NOT_CONTROLLED
-        yield template(agents=subset, senders=senders, k=k, p=p)
-        return
+        if not cut.has("polynomial") and not (senders := context.senders(cut.subset)):
+            yield NO_CONNECTION(agents=cut.subset, senders=senders, k=1)
+            return
 
 
 @refusal_rule("outside", REFUSED_OUTSIDE, premises=("stability",))

@@ -83,6 +83,12 @@ class Context:
         heard = self.system.named(graph.union(self.system.indices(subset)))
         return [name for name in heard if name not in inside]
 
+    def receiving(self, subset: Sequence[str]) -> list[str]:
+        """The names of a set of agents and of all others from which a path leads into the set."""
+        graph = self.system.plant.neighbors.closure()
+        named: list[str] = self.system.named(sorted(graph.union(self.system.indices(subset))))
+        return named
+
 
 class Claim:
     """A part of a certificate as rules read it, by attribute, item or iteration.

@@ -362,6 +362,14 @@ def _connected(neighbor_graph: Claim, context: Context) -> Said:
     yield say.CONNECTED() if neighbor_graph.strongly_connected else say.NOT_CONNECTED()
 
 
+@sharing_rule("table", say.SOURCES, premises=("shared_fixed_spectrum",))
+def _sources(shared_fixed_spectrum: Claim, context: Context) -> Said:
+    """The agents on which depends what any sharing leaves fixed."""
+    if shared_fixed_spectrum.polynomial.degree:
+        graph = context.system.plant.neighbors
+        yield say.SOURCES(parts=[context.system.named(s) for s in graph.source_components()])
+
+
 @sharing_rule("table", say.NEVER_CONTROLLED, premises=("joint_controllability",))
 def _never_controlled(joint_controllability: Claim, context: Context) -> Said:
     if context.neighbors is not None and not joint_controllability.controllable:

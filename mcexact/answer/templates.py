@@ -563,6 +563,7 @@ FORMS: dict[str, Write] = {
     "times": _times,
     "escape": _Agreeing("which does not satisfy", "which do not all satisfy"),
     "need": _Agreeing("needs", "need"),
+    "receive": _Agreeing("receives", "receive"),
     "unstable": _Agreeing("it is not stable", "not all of them are stable"),
     "price": choice(least="least", cheapest="cheapest"),
     "links": choice(least="the fewest links", cheapest="the cheapest links"),

@@ -1018,6 +1018,79 @@ _enter_bound("enough-states", PLANT, "extended_bound.remark_2", positive=True)
 _enter_bound("enough-nothing", PLANT, "extended_bound.remark_2", positive=False)
 
 
+# What stays however much agents share over a graph that need not be strongly connected.
+
+OVER_LINKS: Path = ("arcs", "augmented_outputs")
+WHATEVER_SHARED = Role(FIXED.kinds, (OVER_LINKS,))
+ANY_SHARING = "any_graph.any_sharing"
+NO_SHARING = f"{ANY_SHARING}, {PENCIL_MODES}"
+SHARE = "however much its agents share over its links, with no delay"
+
+
+def before_links(premise: Premise) -> System:
+    """The system to whose graph the last links were added; these must complete its paths.
+
+    The links must be those of the transitive closure: the new graph has them and no others.
+    """
+    system: System = read_subject(premise.document["subject"][:-2], premise.plant)
+    N = [set(N_i) for N_i in system.neighbors or []]
+    spend(len(N) * sum(map(len, premise.system.neighbors or [])))
+    for j in range(len(N)):
+        for N_i in N:
+            if j in N_i:
+                N_i |= N[j]
+    closed = list(map(set, premise.system.neighbors or [])) == N
+    premise.expect(closed, "the links are not those from all agents with a path to an agent")
+    return system
+
+
+def whose(premise: Premise, factor: dict[str, Any]) -> tuple[list[str], list[str]]:
+    """The agents from which paths lead to those that do not observe a mode, and the others."""
+    names, N = premise.system.names, premise.system.neighbors or []
+    s = {j for name in factor["channels"] for j in N[names.index(name)]}
+    inside = [name for i, name in enumerate(names) if i in s]
+    return inside, [name for i, name in enumerate(names) if i not in s]
+
+
+def stays_shared(premise: Premise) -> str:
+    """The modes that stay, by some agents, not all, which receive from no other."""
+    base, texts = before_links(premise), []
+    for factor in premise.cited("claim", "factors"):
+        inside, outside = whose(premise, factor)
+        if inside and outside:
+            texts.append(
+                f"the roots of {polynomial_text(factor['polynomial'])} are fixed, not observed by "
+                f"{channel_set(inside)}, which receives from no other agent, and not controlled by "
+                f"{channel_set(outside)}"
+            )
+    premise.expect(bool(texts), "no such mode is fixed")
+    return f"For {base.words}, {SHARE}: {'; '.join(texts)}"
+
+
+rule("stays-shared", WHATEVER_SHARED, theorem=NO_SHARING)(stays_shared)
+
+
+@rule("free-shared", WHATEVER_SHARED, theorem=ANY_SHARING)
+def _free_shared(premise: Premise) -> str:
+    """No mode stays where enough states are shared."""
+    base = before_links(premise)
+    premise.expect(free(premise), "a mode is fixed")
+    what = "no mode is fixed if its agents share enough states over its links, with no delay"
+    return f"For {base.words}: {what}"
+
+
+@rule("source-components", WHATEVER_SHARED)
+def _sources(premise: Premise) -> str:
+    """The strong components into which no link leads: sets that are closed, and no smaller ones."""
+    base = before_links(premise)
+    N = [frozenset(N_i) for N_i in premise.system.neighbors or []]
+    parts = {N_i for N_i in N if all(N[j] == N_i for j in N_i)}
+    listed = ", ".join(
+        channel_set(base.names[i] for i in sorted(s)) for s in sorted(parts, key=min)
+    )
+    return f"For {base.words}: its neighbor graph has the source components {listed}"
+
+
 # The least dimensions.
 
 

@@ -29,6 +29,8 @@ from .sentences import (
     DUAL,
     FIXED_DYNAMIC,
     HAUTUS,
+    NO_SHARING,
+    OVER_LINKS,
     WANG_DAVISON,
     Holds,
     Path,
@@ -41,13 +43,13 @@ from .sentences import (
     followed,
     restate,
     rule,
+    stays_shared,
 )
 from .sentences_nearby import differences, farthest
 
 # What the certificates of a design, of a verdict on a controller and of a refusal imply.
 
 UNCONTROLLABLE = "controllability.uncontrollable_modes"
-NO_FIXED = "extended_bound.extended_no_fixed, extended_bound.extended_states_no_fixed"
 
 
 MODELS = ("integrators", "servo", "internal_model")
@@ -410,19 +412,17 @@ stuck("refused-models-alone", ("internal_model",))
 stuck("refused-models-fixed", ("internal_model", "extended"), holds=_shares_all)
 
 
-def refuse(key: str, theorem: str, agents: str) -> None:
-    """Enter a rule about agents that lack shared states and receive from no other agent."""
-
-    @rule(key, DIMENSIONS, theorem=theorem)
-    def _say(least: Premise) -> str:
-        least.expect(not least["feasible"], "some dimensions suffice")
-        return demands(least, agents, alone=True)
+@rule("refused-over-links", Role(("fixed_spectrum",), behind(OVER_LINKS)), theorem=NO_SHARING)
+def _refused_over_links(stays: Premise) -> str:
+    """Modes that stay however much is shared."""
+    return stays_shared(stays)
 
 
-refuse("refused-no-dimensions", NO_FIXED, "some")
-refuse("refused-sharing-in-vain-control", NO_FIXED, "none")
-refuse("refused-sharing-in-vain-observe", NO_FIXED, "all")
-refuse("refused-no-connection", "transfer_graph.zero_transfer_cut", "cut off")
+@rule("refused-no-connection", DIMENSIONS, theorem="transfer_graph.zero_transfer_cut")
+def _refused_no_connection(least: Premise) -> str:
+    """Agents that lack shared states and receive from no other agent."""
+    least.expect(not least["feasible"], "some dimensions suffice")
+    return demands(least, "cut off", alone=True)
 
 
 def conditions(premise: Premise) -> list[str]:

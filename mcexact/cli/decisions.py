@@ -59,7 +59,7 @@ _LINES_OF_WORDS, _WITH_LINKS = 5, 8
 _ABOUT_LINKS = {"linked_fixed_spectrum", "minimal_communication"}
 _LINES_NEARBY = 4
 """How many more lines there are where a sentence about a plant nearby leads."""
-_LINES_FAILURES = 3
+_LINES_FAILURES, _LINES_SHARED = 3, 3
 """How many more lines there are where single failures were asked about."""
 _MODES = 6
 _LONG = 10.0
@@ -141,6 +141,7 @@ def analyzed(
     suspected = () if near is None else suspicions(near)
     lines = _WITH_LINKS if _ABOUT_LINKS & account.answers.keys() else _LINES_OF_WORDS
     lines += _LINES_FAILURES * ("failures_1" in account.answers)
+    lines += _LINES_SHARED * ("shared_fixed_spectrum" in account.answers)
     lines += _LINES_NEARBY * (near is not None and bool(near.leading))
     page = None
     if with_page:

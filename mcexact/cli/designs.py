@@ -380,7 +380,11 @@ def _advice(
     if lacking(proof, region):
         command = f"mcexact design {name} {held} --modulo unobservable"
         return f"{about}`{command}` designs for the plant modulo what no output shows"
-    if name != "decentralized" or not isinstance(proof, FixedSpectrum):
+    if not isinstance(proof, FixedSpectrum):
+        return ""
+    if [each["construction"] for each in proof.subject][-2:-1] == ["arcs"]:
+        return f"{about}`mcexact allocate {held} --links` says which links to add"
+    if name != "decentralized":
         return ""
     if all(len(factor.channels) in (0, system.m) for factor in proof.factors):
         return ""

@@ -9,7 +9,8 @@ docstrings.
 - `feedback`, `full_output`: static gains u_i = F_i y_i, and one channel that measures the state.
 - `merged`, `restricted`: channels united, and channels left out.
 - `failed`: agents, actuators, sensors and links that do nothing any more.
-- `add_links`, `augmented_outputs`: more communication, and neighbors' outputs as measurements.
+- `add_links`, `closure`, `augmented_outputs`: more communication, and neighbors' outputs as
+  measurements.
 - `extended_system`: agents also share sub-states (Paper, equation (25)).
 - `lifted_system`: the same with delays, in discrete time; every message under way is a state.
 - `held_system`: all agents, also the owner, use a sub-state equally late.
@@ -550,6 +551,38 @@ def add_links(
         D=system.D,
         neighbors=joined,
     )
+
+
+def closure(system: MultiChannelSystem, graph: NeighborGraph | None = None) -> MultiChannelSystem:
+    """Add the links j → i of the transitive closure: those to i from all j with a path to i.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    graph : NeighborGraph, optional
+        Overrides ``system.neighbors``.
+
+    Returns
+    -------
+    MultiChannelSystem
+        The plant with these links.  What is fixed for `augmented_outputs` of it stays fixed under
+        all linear time-invariant control over the graph, however many states the agents share, and
+        nothing else does (``any_graph.any_sharing``).
+
+    Raises
+    ------
+    UsageError
+        If there is no neighbor graph.
+
+    Examples
+    --------
+    >>> chain = {"2": ["1"], "3": ["2"]}
+    >>> system = MultiChannelSystem([[0]], [[[1]]] * 3, [[[1]]] * 3, neighbors=chain)
+    >>> closure(system).subject
+    ({'construction': 'arcs', 'added': [['1', '3']]},)
+    """
+    system, graph = with_graph(system, graph)
+    return add_links(system, graph.closure().edges())
 
 
 # The system in which each agent also receives its neighbors' measured outputs.

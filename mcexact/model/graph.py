@@ -494,6 +494,34 @@ class NeighborGraph(Shown):
         """
         return len(strong_components(self.m, self.edges())) == 1
 
+    def closure(self) -> NeighborGraph:
+        """Return the transitive closure: agent i receives from every j with a path from j to i.
+
+        Delays are left out, so that signals take no time on any path.
+
+        Examples
+        --------
+        >>> NeighborGraph(("1", "2", "3"), [[], [0], [1]]).closure().edges()
+        ((0, 1), (0, 2), (1, 2))
+        """
+        heard = [set(N) for N in self.neighbors]
+        for j in range(self.m):  # Warshall: paths through agents up to j
+            for N in heard:
+                if j in N:
+                    N |= heard[j]
+        return NeighborGraph(self.names, heard)
+
+    def source_components(self) -> tuple[tuple[int, ...], ...]:
+        """Return the strong components into which no edge leads from another component.
+
+        Examples
+        --------
+        >>> NeighborGraph(("1", "2", "3"), [[1], [0], [1]]).source_components()
+        ((0, 1),)
+        """
+        parts = strong_components(self.m, self.edges())
+        return tuple(part for part in parts if {*self.union(part)} == {*part})
+
     def _digraph(self, nodes: Sequence[Any]) -> Any:
         import networkx
 

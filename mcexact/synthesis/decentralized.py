@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 from math import inf
 from typing import Any, Literal
 
+from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.derived.constructions import Share
 from mcexact.errors import Impossible, InputError, LimitReached, McexactError
 from mcexact.model.graph import NeighborGraph
@@ -26,8 +27,10 @@ from mcexact.synthesis.network_design import network_design
 from mcexact.synthesis.networks import (
     Dimensions,
     decentralized_network,
+    refuse_what_stays,
     sharing_network,
     sharing_of,
+    stays_over,
 )
 from mcexact.synthesis.optimum.figures import MARGIN, Aims
 from mcexact.synthesis.optimum.proposals import Family, searched_proposals
@@ -107,7 +110,7 @@ which channel 2 does not control and channel 1 does not observe, and it is not f
     """
     InputError.require(system, MultiChannelSystem, "system")
     arguments = system, agent, spectrum, rate, radius, arithmetic, progress
-    request = request_for(*arguments, aims=aims, avoids_fixed_modes=True)
+    request = request_for(*arguments, aims=aims, stays=lambda: fixed_spectrum(system))
     network = decentralized_network(system)
 
     def attempt(asked: Request) -> Design:
@@ -206,16 +209,19 @@ def design_extended(
     >>> design_extended(plant, NeighborGraph.empty(plant.names), rate=1)
     Traceback (most recent call last):
         ...
-    mcexact.errors.Impossible: no shared dimensions allow linear time-invariant control to move \
-the modes that are not fast enough: agents 2 and 3 need 1 shared state of other agents, and can \
-receive from nobody
+    mcexact.errors.Impossible: no sharing over the neighbor graph lets linear time-invariant \
+control move the mode 1, which does not satisfy Re λ < -1: agents 2 and 3 receive from no other \
+agent and do not observe it, and agent 1 does not control it
     """
     InputError.require(system, MultiChannelSystem, "system")
-    request = request_for(system, agent, spectrum, rate, radius, arithmetic, progress, aims=aims)
+    stays = stays_over(*with_graph(system, graph))
+    arguments = system, agent, spectrum, rate, radius, arithmetic, progress
+    request = request_for(*arguments, aims=aims, stays=lambda: stays)
 
     def attempt(request: Request) -> Design:
         options = dimensions, share, free_assignability, aims or Aims()
         asked = _Asked(system, graph, request, *options)
+        refuse_what_stays(system, stays, request.region)
         if network is None and asked.compares:
             return asked.cheaper()
         return asked.designed(network)

@@ -37,7 +37,7 @@ from mcexact.synthesis.channel_controller import ChannelController
 from mcexact.synthesis.decentralized import design_extended
 from mcexact.synthesis.design import Design, designed
 from mcexact.synthesis.gate import Arithmetic, Progress, Proposal, Request
-from mcexact.synthesis.networks import decentralized_network
+from mcexact.synthesis.networks import decentralized_network, refuse_what_stays, stays_over
 from mcexact.synthesis.observer import (
     honors,
     most_promising,
@@ -424,14 +424,17 @@ def design_observer(
     >>> design_observer(plant, {"1": [], "2": []}, rate=1)
     Traceback (most recent call last):
         ...
-    mcexact.errors.Impossible: the error system for these F_i is not complete: no constant K_i, \
-H_ij let one agent control and observe all estimation errors
+    mcexact.errors.Impossible: no sharing over the neighbor graph lets linear time-invariant \
+control move the mode 1, which does not satisfy Re λ < -1: agent 1 receives from no other agent \
+and does not observe it, and agent 2 does not control it
     """
     InputError.require(system, MultiChannelSystem, "system")
     one_of(order, (None, "least", "low"), "order")
     system, graph = with_graph(system, graph)
     arguments = system, agent, spectrum, rate, radius, arithmetic, progress
-    request = request_for(*arguments, least_cost=False)
+    stays = stays_over(system, graph)
+    request = request_for(*arguments, least_cost=False, stays=lambda: stays)
+    refuse_what_stays(system, stays, request.region)
     sizes = [system.n] * system.m
     exact = None if gains is None else checked_gains(system, gains, sizes, rounding=rounding)
     special = spectrum is not None or agent is not None or gains is not None

@@ -19,12 +19,18 @@ from fractions import Fraction
 from itertools import chain
 from typing import Literal
 
+from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.analysis.sharing import minimal_shared_dimensions, shared_dimension_bound
+from mcexact.answer import loops as say
 from mcexact.answer.loops import refusal
+from mcexact.answer.modes import FixedSpectrum
 from mcexact.answer.sharing import Deficiency, SharedDimensions
 from mcexact.derived.constructions import (
     Share,
+    augmented_outputs,
     checked_dimensions,
+    closure,
     extended_system,
     held_system,
     internal_model,
@@ -286,8 +292,53 @@ def _sizes(
         # dimensions suffice, neither do as many as there are states.
         return None, least.dimensions or (system.n,) * system.m
     if least.dimensions is None:
-        raise refusal("dimensions", least)
+        refuse_joint_modes(system, region)
+        raise refusal("connection", least)
     return least, least.dimensions
+
+
+def refuse_joint_modes(system: MultiChannelSystem, region: StabilityRegion) -> None:
+    """Raise an error for a mode outside a region that all channels together do not move.
+
+    Raises
+    ------
+    Impossible
+    """
+    for verb, answer in (
+        ("move", joint_controllability(system)),
+        ("see", joint_observability(system)),
+    ):
+        if not region.contains_roots_of(answer.uncontrollable_polynomial):
+            raise refusal("unreached", answer, template=say.UNREACHED[verb], region=region)
+
+
+def stays_over(system: MultiChannelSystem, graph: NeighborGraph) -> FixedSpectrum | None:
+    """Decide which modes stay however much agents share over a graph.
+
+    Returns
+    -------
+    FixedSpectrum or None
+        Of the plant in which each agent has the outputs of all agents from which a path leads to
+        it.  None for strongly connected graphs, over which only modes stay that all channels
+        together do not move: other decisions are about these.
+    """
+    if graph.is_strongly_connected():
+        return None
+    return fixed_spectrum(augmented_outputs(closure(system, graph)))
+
+
+def refuse_what_stays(
+    system: MultiChannelSystem, stays: FixedSpectrum | None, region: StabilityRegion
+) -> None:
+    """Raise an error for a mode of a system outside a region that `stays_over` has found.
+
+    Raises
+    ------
+    Impossible
+    """
+    if stays is not None and stays.outside(region):
+        refuse_joint_modes(system, region)
+        raise refusal("over links", stays, region=region)
 
 
 def _region_of_stable_modes(system: MultiChannelSystem) -> StabilityRegion:

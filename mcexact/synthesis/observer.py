@@ -28,7 +28,7 @@ from itertools import islice
 from math import ceil
 from typing import TYPE_CHECKING, Any, Literal
 
-from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.controllability import joint_observability
 from mcexact.analysis.fixed_modes import completeness, fixed_spectrum
 from mcexact.analysis.single_channel import ReachingGains, error_gain_draws, reaching_gains
 from mcexact.answer import loops as say
@@ -51,6 +51,7 @@ from mcexact.synthesis.channel_controller import (
     riccati_feedback,
 )
 from mcexact.synthesis.gate import Coordinates, Proposal, Request
+from mcexact.synthesis.networks import refuse_joint_modes
 from mcexact.synthesis.optimum.diagnosis import plain_figures
 from mcexact.synthesis.optimum.figures import MARGIN
 from mcexact.synthesis.state_feedback import (
@@ -927,12 +928,7 @@ def refuse_if_impossible(
     ------
     Impossible
     """
-    for verb, answer in (
-        ("move", joint_controllability(system)),
-        ("see", joint_observability(system)),
-    ):
-        if not region.contains_roots_of(answer.uncontrollable_polynomial):
-            raise refusal("unreached", answer, template=say.UNREACHED[verb], region=region)
+    refuse_joint_modes(system, region)
     if gains is None:
         return
     decision = fixed_spectrum(error_system(system, gains, graph))

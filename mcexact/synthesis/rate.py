@@ -17,7 +17,6 @@ from fractions import Fraction
 from functools import partial
 from typing import Any
 
-from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.answer.modes import FixedSpectrum
 from mcexact.errors import InputError, LimitReached, UsageError, telling
 from mcexact.exact.matrix import Matrix
@@ -50,7 +49,7 @@ def request_for(
     aims: Aims | None = None,
     selection: Sequence[Matrix] | None = None,
     signals: Polynomial | None = None,
-    avoids_fixed_modes: bool = False,
+    stays: Callable[[], FixedSpectrum | None] | None = None,
     least_cost: bool = True,
 ) -> Request:
     """Check the arguments of a ``design_…`` function, and choose a rate if none is given.
@@ -65,8 +64,8 @@ def request_for(
         with these integrators.
     signals : Polynomial, optional
         Of models that stand in place of the integrators.
-    avoids_fixed_modes : bool
-        Whether a chosen rate is slow enough for the stable fixed modes of the system.
+    stays : callable, optional
+        It returns a fixed spectrum, or None: a chosen rate is slow enough for its stable modes.
     least_cost : bool
         Whether a search follows that looks for the least cost; otherwise, and without effort or for
         a named agent, half the sensible rate is chosen.
@@ -109,8 +108,8 @@ since all agents together have no optimal controller
         region, reason, brisk = chosen.slowest, chosen.reason, chosen.brisk
     else:
         region, reason = chosen.brisk, chosen.brisk_reason
-    if selection is None and avoids_fixed_modes:
-        region, reason = _beyond(fixed_spectrum(system), region, reason)
+    if stays is not None and (fixed := stays()) is not None:
+        region, reason = _beyond(fixed, region, reason)
     note = f"no {region.word} was given: {region.edge} is {reason}"
     if searches:
         limit = "a radius of at most" if region.discrete else "a rate of at least"

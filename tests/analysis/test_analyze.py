@@ -375,7 +375,10 @@ def canal(neighbors: dict[str, list[str]] | None) -> MultiChannelSystem:
         (None, ["not-stabilizable", "links", "no-causal-control"]),
         ({"gate": [], "farm": []}, ["not-stabilizable", "no-causal-control"]),
         ({"gate": ["farm"]}, ["nothing-fixed", "not-stabilizable"]),
-        ({"farm": ["gate"]}, ["not-stabilizable", "not-stabilizable"]),
+        (
+            {"farm": ["gate"]},
+            ["not-stabilizable", "not-stabilizable", "stays-shared", "links-beside-graph"],
+        ),
     ],
 )
 def test_what_the_links_of_a_plant_change_about_fixed_modes_leads(

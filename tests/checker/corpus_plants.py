@@ -286,6 +286,12 @@ def crafted() -> dict[str, MultiChannelSystem]:
     )
     # the first mode is fixed, although both channels together move it, and none moves the second
     found["besides"] = MultiChannelSystem([[1, 0], [0, 2]], [first, nothing], [rows[2], rows[0]])
+    # agent 1 sees the mode that agent 3 drives, and a path leads from 1 to 3, or from 3 to 1
+    paths = {"towards": {"2": ["1"], "3": ["2"]}, "against": {"1": ["2"], "2": ["3"]}}
+    for name, chain in paths.items():
+        found[name] = MultiChannelSystem(
+            [[1]], [[[0]], [[0]], [[1]]], [[[1]], [[0]], [[0]]], neighbors=chain
+        )
     mutual = {"1": ["2"], "2": ["1"]}
     for time in ("continuous", "discrete"):
         B, C = [[[1], [1]], [[1], [0]]], [[[1, 1]], [[0, 1]]]

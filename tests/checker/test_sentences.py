@@ -28,7 +28,13 @@ from mcexact.checker.core.reading import Limits
 from mcexact.checker.kinds import Expectation, Verdict
 from mcexact.checker.sentences import RULES, Premise, Rule
 from mcexact.checker.sentences_loops import DIMENSIONS
-from mcexact.derived.constructions import Share, extended_system, merged
+from mcexact.derived.constructions import (
+    Share,
+    add_links,
+    augmented_outputs,
+    extended_system,
+    merged,
+)
 from mcexact.exact.roots import StabilityRegion
 from mcexact.model import gallery
 from mcexact.model.box import Box
@@ -198,11 +204,18 @@ def with_hidden_mode(mode: int) -> MultiChannelSystem:
     )
 
 
+def seen_and_driven_apart(chain: dict[str, list[str]]) -> MultiChannelSystem:
+    """A mode that agent 1 sees and agent 3 drives, over some links."""
+    return MultiChannelSystem([[1]], [[[0]], [[0]], [[1]]], [[[1]], [[0]], [[0]]], neighbors=chain)
+
+
 def test_each_rule_is_implied_by_some_certificates_and_not_by_all(tmp_path: Path) -> None:
     evidence = [answers(PAPER), answers(PAPER.with_neighbors(RING))]
     evidence += map(answers, [gallery.load("quadruple-tank-pminus"), *map(drawn, range(12))])
     evidence += [answers(gallery.load(name)) for name in ONE_PART_AND_TWO]
     evidence += map(answers, [with_hidden_mode(1), with_hidden_mode(2)])
+    chains = {"2": ["1"], "3": ["2"]}, {"1": ["2"], "2": ["3"]}
+    evidence += [answers(seen_and_driven_apart(chain)) for chain in chains]
     evidence += [{"a": TWICE}, {"a": BLIND}, {"a": CUT}]
     evidence += [{"a": changed(BLIND, ("claim.channels", ["1"]))}]
     evidence += [{"a": changed(CUT, ("claim.property", "both"))}]
@@ -252,6 +265,33 @@ def test_time_varying_control_is_judged_by_strong_components_alone(
         found = said(write(tmp_path / str(k), evidence, manifest(evidence, listed)))
         implied = [i for i, each in enumerate(found) if each.verdict == "IMPLIED"]
         assert implied == (right if k == ONE_PART_AND_TWO.index(name) else [])
+
+
+@pytest.mark.parametrize(
+    ("chain", "right"),
+    [
+        ({"2": ["1"], "3": ["2"]}, ["free-shared", "source-components"]),
+        ({"1": ["2"], "2": ["3"]}, ["refused-over-links", "source-components", "stays-shared"]),
+    ],
+)
+def test_what_any_sharing_leaves_is_judged_over_the_transitive_closure_alone(
+    tmp_path: Path, chain: dict[str, list[str]], right: list[str]
+) -> None:
+    plant = seen_and_driven_apart(chain)
+    keys = ["free-shared", "refused-over-links", "source-components", "stays-shared"]
+    graph = plant.neighbors
+    assert graph is not None
+    paths = graph.closure().edges()
+    assert len(paths) == len(graph.edges()) + 1
+    every = [(j, i) for j in range(3) for i in range(3) if i != j]
+    for k, links in enumerate([paths, graph.edges(), every, [*graph.edges(), every[-1]]]):
+        made = augmented_outputs(add_links(plant, links))
+        evidence = {"modes": document(fixed_spectrum(made))}
+        (tmp_path / str(k)).mkdir()
+        listed = [sentence(key, *evidence, evidence=evidence) for key in keys]
+        found = said(write(tmp_path / str(k), evidence, manifest(evidence, listed)))
+        implied = [key for key, each in zip(keys, found, strict=True) if each.verdict == "IMPLIED"]
+        assert implied == (right if {*links} == {*paths} else [])
 
 
 def test_an_exponent_of_a_product_does_not_limit_how_often_one_root_stays(tmp_path: Path) -> None:

@@ -109,7 +109,7 @@ def test_a_graph_that_no_sharing_mends_is_refused() -> None:
     plant = three_channels()
     with pytest.raises(Impossible) as refused:
         design_extended(plant, NeighborGraph.empty(plant.names), rate=1)
-    assert refused.value.certificate.kind == "shared_dimensions"
+    assert refused.value.certificate.kind == "fixed_spectrum"
     assert check_document(encode(refused.value.certificate).encode()).verdict == "VALID"
 
 

@@ -8,7 +8,7 @@ to set-points is simulated from drawn initial states.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -31,7 +31,7 @@ from tests.oracle.sentences.cases import (
     monic,
     number,
 )
-from tests.oracle.sentences.sharing import OUTPUTS
+from tests.oracle.sentences.sharing import OUTPUTS, stays_shared
 
 # What the controller is.
 
@@ -569,30 +569,10 @@ def _cut(said: Said, case: Case) -> bool:
     return right and said.values["k"] > 0 and bool(s)
 
 
-@judge("refused-no-dimensions")
-def _no_dimensions(said: Said, case: Case) -> bool:
-    """Slow modes stay with as many shared states as help, since the agents named lack them."""
-    fast = case.asked.get("shared_region") or case.asked["region"]
-    facts = _shared_at_most(case)
-    slow = [p for p, _ in irreducible(facts.fixed_polynomial) if not fast.contains(p)]
-    base = case.with_outputs if (case.asked.get("share") or OUTPUTS) == OUTPUTS else case.own
-    s = case.indices(said.values["agents"])
-    need = [facts.n for facts in (base,) if facts]
-    lacks = [base.n - base.rank(s, p) for p, _ in base.modes if not fast.contains(p)]
-    return bool(slow and need) and _cut(said, case) and said.values["k"] in lacks
-
-
-def _vain(side: str) -> Callable[[Said, Case], bool]:
-    def decides(said: Said, case: Case) -> bool:
-        modes = case.own.uncontrolled() if side == "control" else case.own.unobserved()
-        parts = {str(q) for q, _ in irreducible(said.values["p"])}
-        return bool(parts) and parts <= {str(p) for p in modes}
-
-    return decides
-
-
-judge("refused-sharing-in-vain-control")(_vain("control"))
-judge("refused-sharing-in-vain-observe")(_vain("observe"))
+@judge("refused-over-links")
+def _over_links(said: Said, case: Case) -> bool:
+    """A slow mode stays with as many shared states as the plant has."""
+    return _escapes(said, said.values["p"]) and stays_shared(said, case)
 
 
 @judge("refused-no-connection")

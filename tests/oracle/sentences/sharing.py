@@ -24,6 +24,7 @@ from tests.oracle.sentences.cases import (
     Said,
     UnjudgedError,
     components,
+    divides,
     irreducible,
     number,
     same_roots,
@@ -81,7 +82,36 @@ def _is_not_connected(said: Said, case: Case) -> bool:
     return case.plant.neighborhoods is not None and not _connected(case)
 
 
+@judge("source-components")
+def _source_components(said: Said, case: Case) -> bool:
+    """The strong components into which no edge leads from others."""
+    neighborhoods = case.plant.neighborhoods or ()
+    edges = [(j, i) for i, N in enumerate(neighborhoods) for j in N]
+    sources = [s for s in components(case.plant.m, edges) if not case.senders(s)]
+    return sorted(sorted(case.indices(names)) for names in said.values["parts"]) == sorted(sources)
+
+
 # What suffices, and what does not.
+
+
+def stays_shared(said: Said, case: Case) -> bool:
+    """The modes stay with as many shared states as the plant has, by agents that are closed."""
+    inside, outside = (case.indices(said.values[side]) for side in ("inside", "outside"))
+    parts = [q for q, _ in irreducible(said.values["p"])]
+    left = case.extended([case.plant.n] * case.plant.m, OUTPUTS).fixed_polynomial
+    lost = [not case.own.observes(inside, q) and not case.own.controls(outside, q) for q in parts]
+    stay = [divides(q, left) and case.own.rank(inside, q) < case.own.n for q in parts]
+    closed = bool(inside) and bool(outside) and not case.senders(inside)
+    everybody = sorted([*inside, *outside]) == list(range(case.plant.m))
+    return bool(parts) and all([*lost, *stay]) and closed and everybody
+
+
+judge("stays-shared")(stays_shared)
+
+
+@judge("free-shared")
+def _free_shared(said: Said, case: Case) -> bool:
+    return instant(said, case) and leaves(case.extended([case.plant.n] * case.plant.m, OUTPUTS))
 
 
 def _enough(share: str, positive: bool) -> Judge:
