@@ -578,6 +578,8 @@ class Reporting:
 
 _LIBRARIES = ("flint", "numpy", "scipy.linalg")
 _SHOW_AFTER = 1.0  # seconds
+_DOING = 16
+"""The columns that are kept of what is done, so that the step and the seconds are whole."""
 _CLEAR = "\r\x1b[K"
 """Move to the start of the terminal's line, and clear it."""
 
@@ -766,8 +768,10 @@ class _Progress:
         line = ", ".join(filter(None, (self._doing, step, f"{elapsed:.0f} s")))
         if line != self._shown:
             self._shown = line
-            columns = shutil.get_terminal_size().columns
-            print(f"{_CLEAR}{_within(line, columns - 1)}", end="", file=sys.stderr, flush=True)
+            columns = shutil.get_terminal_size().columns - 1
+            doing = _within(self._doing, max(columns - len(line) + len(self._doing), _DOING))
+            line = _within(doing + line.removeprefix(self._doing), columns)
+            print(f"{_CLEAR}{line}", end="", file=sys.stderr, flush=True)
 
     def clear(self) -> None:
         """Clear the line on a terminal, so that another can be printed."""

@@ -212,3 +212,18 @@ def test_an_error_ends_the_work_even_if_something_was_decided() -> None:
 def fails_late(known: Known, *, report: Reporting) -> None:
     report.keep("first", b"1")
     stumble()
+
+
+def test_the_line_of_a_narrow_terminal_keeps_the_step_and_the_seconds(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("COLUMNS", "60")
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    shown = running._Progress("analyzing /a/very/long/path/to/some/plant.json")
+    shown.show(12, "1/9 " * 7)
+    line = capsys.readouterr().err.removeprefix(running._CLEAR)
+    assert len(line) == 59 and line.startswith("analy")
+    assert line.endswith(f"plant.json, {'1/9 ' * 7}, 12 s")
+    shown.show(13, "1/9 " * 20)
+    line = capsys.readouterr().err.removeprefix(running._CLEAR)
+    assert len(line) == 59 and line.endswith("1/9 , 13 s")
