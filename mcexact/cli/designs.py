@@ -168,7 +168,7 @@ def designed(
     if "longest" in wanted:
         radius, longest = wanted["radius"], wanted["longest"]
         return periodic.designed(plant, base, radius, longest, system_by_digest, progress)
-    system = _inputs_as_states(name, base)
+    system = _inputs_as_states(base)
     weighed = read_weights(weights, limits)
     aims = _aims(aimed, weighed)
     if base.D is not None and aims.box is not None:
@@ -334,7 +334,7 @@ class _Shaped:
         return replace(told, evidence=told.evidence.with_others(others))
 
 
-def _inputs_as_states(name: str, system: MultiChannelSystem) -> MultiChannelSystem:
+def _inputs_as_states(system: MultiChannelSystem) -> MultiChannelSystem:
     """The system, or with its inputs as states if it has feedthrough.
 
     Raises
@@ -344,7 +344,7 @@ def _inputs_as_states(name: str, system: MultiChannelSystem) -> MultiChannelSyst
     """
     if system.D is None:
         return system
-    if name == "setpoint" or system.limits is not None:
+    if system.limits is not None:
         InputError.require(system, MultiChannelSystem, "system")
     return input_filters(system)
 

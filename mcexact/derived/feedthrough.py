@@ -101,19 +101,38 @@ def without_feedthrough(system: MultiChannelSystem) -> MultiChannelSystem:
     return system if any_system(system).D is None else input_filters(system)
 
 
+def measured_inputs(system: MultiChannelSystem) -> list[int]:
+    """Return how many of the last outputs of each agent `input_filters` has just added."""
+    added = [step["construction"] for step in system.subject[-1:]] == [FILTERS]
+    return [p if added else 0 for p, _ in system.sizes]
+
+
+def on_own_outputs(
+    system: MultiChannelSystem, selection: Sequence[Matrix] | None = None
+) -> tuple[Matrix, ...]:
+    """Return [S_i 0], by which S_i selects among the y_i, without the inputs that are measured.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    selection : sequence of m Matrix, optional
+        By default the identities.
+    """
+    wide = []
+    for i, (p, (_, q)) in enumerate(zip(measured_inputs(system), system.sizes, strict=True)):
+        S = Matrix.identity(q - p) if selection is None else selection[i]
+        wide.append(hstack([S, Matrix.zeros(S.nrows, p)], nrows=S.nrows))
+    return tuple(wide)
+
+
 def own_outputs(system: MultiChannelSystem) -> MultiChannelSystem:
     """Return the system without the measured inputs that `input_filters` has just added.
 
     What a controller holds at set-points are the y_i, and not the inputs.  Another system is
     returned as it is.
     """
-    if [step["construction"] for step in system.subject[-1:]] != [FILTERS]:
-        return system
-    selection = []
-    for p, outputs in system.sizes:
-        q = outputs - p
-        selection.append(hstack([Matrix.identity(q), Matrix.zeros(q, p)], nrows=q))
-    return regulated_outputs(system, selection)
+    added = any(measured_inputs(system))
+    return regulated_outputs(system, on_own_outputs(system)) if added else system
 
 
 # A controller of the result is one of the plant.

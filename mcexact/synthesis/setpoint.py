@@ -32,6 +32,7 @@ from mcexact.derived.constructions import (
     servo_system,
     setpoint_system,
 )
+from mcexact.derived.feedthrough import measured_inputs, on_own_outputs
 from mcexact.errors import Impossible, InputError, InternalError, LimitReached, OutOfReach, one_of
 from mcexact.exact.linear_algebra import row_echelon
 from mcexact.exact.matrix import Matrix, block, block_diagonal, hstack, kronecker, vstack
@@ -147,6 +148,10 @@ def design_setpoint(
     equilibrium, where ẇ_i = y_i − r_i = 0.  It is also verified that the gain at s = 0 is the
     identity, or that from r to S y is S.  Where only some outputs are held, the proposals are those
     for `servo_system`: what is held and what is measured are told apart, as by Davison (1976).
+
+    A plant with feedthrough is refused: design for `input_filters` of it, whose measured inputs are
+    not held, and make the controller of the plant by `plant_controller`, which follows the same
+    signals.
 
     With other signals the proposals are those for `internal_model`.  Without communication one
     exists iff no root of α outside the stability region is fixed with models at each agent; see
@@ -314,6 +319,8 @@ class _Task:
 def selected(system: MultiChannelSystem, regulate: Any) -> tuple[Matrix, ...] | None:
     """Return the S_i of what is to be held; None for every output.
 
+    Inputs that `input_filters` made states, and that agents measure, are not held.
+
     Parameters
     ----------
     system : MultiChannelSystem
@@ -325,10 +332,13 @@ def selected(system: MultiChannelSystem, regulate: Any) -> tuple[Matrix, ...] | 
     InputError
         If an agent or an output does not exist, or a matrix has not q_i columns.
     """
-    selection = system.regulated
+    inputs = measured_inputs(system)
+    selection = system.plant.regulated if any(inputs) else system.regulated
     if regulate is not None:
-        counts = [system.q(i) for i in range(system.m)]
+        counts = [system.q(i) - p for i, p in enumerate(inputs)]
         selection = read_selection(regulate, system.names, counts)
+    if any(inputs):
+        return on_own_outputs(system, selection)
     return None if selection is None or selection == every_output(system) else selection
 
 

@@ -390,6 +390,7 @@ TAKEN = {
     ),
     *(
         "augmented_outputs",
+        "closure",
         "dual",
         "failed",
         "failures",
