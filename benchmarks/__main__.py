@@ -31,6 +31,7 @@ from benchmarks import (
 )
 from benchmarks.fixed_spectrum import Row
 from benchmarks.kept_rows import ROWS, chosen, kept, measured
+from mcexact.analysis.stability import open_loop_spectrum
 from mcexact.crosschecks.table import libraries_here
 
 _TABLE = Path(__file__).with_name("SPEED.md")
@@ -75,6 +76,15 @@ PARTS: Mapping[str, Callable[[], Iterator[Row]]] = {
         )
         for plant, make, added, name, sizes in SECOND
         for n in sizes
+    },
+    **{
+        f"second checker {n} states spectrum": partial(
+            fixed_spectrum.second_rows,
+            "characteristic polynomial",
+            partial(without, n),
+            open_loop_spectrum,
+        )
+        for n in (60, 120)
     },
     **{
         f"questions dense {n} states {m} channels": partial(every_question.dense_rows, n, m)

@@ -17,7 +17,7 @@ from benchmarks.measure import interleaved, processor_seconds
 from mcexact import analyze, checker
 from mcexact.analysis.fixed_modes import completeness, fixed_spectrum
 from mcexact.answer.modes import FixedSpectrum
-from mcexact.answer.protocol import encode
+from mcexact.answer.protocol import Answer, encode
 from mcexact.checker.kinds import check_document
 from mcexact.cli import verified
 from mcexact.derived.drawn.primary_form import SeededChoices
@@ -228,14 +228,18 @@ def planted(n: int) -> MultiChannelSystem:
     return system_with_fixed_mode(SeededChoices(n), states=n, channels=max(n // 4, 2)).system
 
 
-def second_rows(plant: str, make: Callable[[], MultiChannelSystem]) -> Iterator[Row]:
+def second_rows(
+    plant: str,
+    make: Callable[[], MultiChannelSystem],
+    question: Callable[[MultiChannelSystem], Answer] = fixed_spectrum,
+) -> Iterator[Row]:
     """A certificate checked by mcexact-verified and by the checker, both with start and reading."""
     program = verified.program()
     if program is None:
         raise LookupError("needs the program mcexact-verified: make verified")
     system = make()
     n = system.n
-    text = encode(fixed_spectrum(system))
+    text = encode(question(system))
     lines: list[str] = []
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "certificate.json"

@@ -101,11 +101,14 @@ rewrite leq_eqVlt => /predU1P[-> //|lt] /=.
 by rewrite nth_rcons size_columns lt IH.
 Qed.
 
-Theorem hessenberg_polynomial n : char_poly (hessenberg n) = hessenberg_poly n.
+Lemma hessenberg_polyS k : hessenberg_poly k.+1 = 'X * hessenberg_poly k - \sum_(i < k.+1) (h i k * \prod_(i <= t < k) b t) *: hessenberg_poly i.
 Proof.
-apply: hessenberg_sequence => // k; rewrite {1}/hessenberg_poly /= nth_rcons size_columns ltnn eqxx.
+rewrite {1}/hessenberg_poly /= nth_rcons size_columns ltnn eqxx.
 by rewrite nth_columns//; congr (_ - _); apply: eq_bigr => i _; rewrite nth_columns// -ltnS.
 Qed.
+
+Theorem hessenberg_polynomial n : char_poly (hessenberg n) = hessenberg_poly n.
+Proof. by apply: hessenberg_sequence => // k; exact: hessenberg_polyS. Qed.
 End Recursion.
 
 (* The rule: A L = L H, after a common permutation of rows and columns of A. *)

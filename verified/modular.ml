@@ -38,101 +38,60 @@ let bezout l p q =
       euclid (b, ub, vb) (r, less ua ub, less va vb) in
   euclid (trim (reduce l p), [ Z.one ], []) (trim (reduce l q), [], [ Z.one ])
 
-(* Residues modulo l.  A sum of products is reduced in the end by `residue`, where this is faster. *)
-module type Residues = sig
-  type t
-  val of_z : Z.t -> t
-  val to_z : t -> Z.t
-  val zero : t
-  val one : t
-  val is_zero : t -> bool
-  val inverse : t -> t
-  val product : t -> t -> t
-  val less : t -> t -> t -> t    (* a - u x *)
-  val plus : t -> t -> t -> t    (* a + u x, or something that `residue` takes to it *)
-  val residue : t -> t
-end
-
-(* u x modulo l, below 2^61, in machine integers.  The quotient is 1 beside that in floating point at most, for x up to
-   2^31, so that the remainder is right although products overflow. *)
-let[@inline] within l r = if r < 0 then r + l else if r >= l then r - l else r
-let[@inline] times l inverse u x = within l ((u * x) - (l * int_of_float (float_of_int u *. float_of_int x *. inverse)))
-let half = 1 lsl 31
-let[@inline] product l inverse u x =
-  if x < half then times l inverse u x
-  else within l (times l inverse (times l inverse u (x lsr 31)) half + times l inverse u (x land (half - 1)) - l)
-
-let word number =
-  let l = Z.to_int number in
-  let inverted = 1. /. float_of_int l in
-  (module struct
-    type t = int
-    let of_z x = Z.to_int (Z.erem x number)
-    let to_z = Z.of_int
-    let zero = 0 and one = 1
-    let is_zero x = x = 0
-    let inverse x = Z.to_int (Z.invert (Z.of_int x) number)
-    let product u x = product l inverted u x
-    let less a u x = within l (a - product u x)
-    let plus a u x = within l (a + product u x - l)
-    let residue a = a
-  end : Residues)
-
-let large l =
-  (module struct
-    type t = Z.t
-    let of_z x = Z.erem x l
-    let to_z x = x
-    let zero = Z.zero and one = Z.one
-    let is_zero x = Z.sign x = 0
-    let inverse x = Z.invert x l
-    let product u x = Z.erem (Z.mul u x) l
-    let less a u x = Z.erem (Z.sub a (Z.mul u x)) l
-    let plus a u x = Z.add a (Z.mul u x)
-    let residue x = Z.erem x l
-  end : Residues)
-
-let residues l = if Z.numbits l <= 61 then word l else large l
-
-(* A L = L H and L Y = I modulo the prime l, H zero below its first subdiagonal.  Modulo a number that is not prime every
-   pivot has to be a unit, the last one too, as in the checker in Python. *)
+(* A L = L H modulo l with H zero below its first subdiagonal; row i of L is that of a unit lower triangular matrix at
+   the place of i in `order`.  Modulo a number that is not prime every pivot has to be a unit, the last one too, as in the
+   checker in Python, and column by column as there: a column is a few integers, in which sums of products have room.
+   OCaml moves larger integers through its slow heap. *)
+let short = 7680
 let hessenberg l rows =
-  let (module R) = residues l in
   let n = List.length rows in
-  let unit () = Array.init n (fun i -> Array.init n (fun j -> if i = j then R.one else R.zero)) in
-  let h = Array.of_list (List.map (fun row -> Array.of_list (List.map R.of_z row)) rows) and left = unit () and right = unit () in
-  let swap_rows m i j = let t = m.(i) in m.(i) <- m.(j); m.(j) <- t in
-  let swap_columns m i j = Array.iter (fun row -> let t = row.(i) in row.(i) <- row.(j); row.(j) <- t) m in
-  let less_row m r k u first last =
-    let row = m.(r) and other = m.(k) in
-    for j = first to last do if not (R.is_zero other.(j)) then row.(j) <- R.less row.(j) u other.(j) done in
-  (* Column k and u_r times column r for r > k. *)
-  let add_columns m k u =
-    Array.iter (fun row ->
-        let sum = ref row.(k) in
-        for r = k + 1 to n - 1 do if not (R.is_zero row.(r) || R.is_zero u.(r)) then sum := R.plus !sum u.(r) row.(r) done;
-        row.(k) <- R.residue !sum) m in
-  for k = 1 to n - 1 do
-    let pivot = ref k in
-    while !pivot < n && R.is_zero h.(!pivot).(k - 1) do incr pivot done;
-    if !pivot < n then begin
-      if !pivot <> k then begin
-        swap_rows h k !pivot; swap_columns h k !pivot; swap_columns left k !pivot; swap_rows right k !pivot
+  let width = Z.numbits (Z.mul (Z.of_int ((2 * n) + 1)) (Z.mul l l)) in
+  let many = max 1 (short / width) in
+  let parts = (n + many - 1) / many in
+  let rec packed entry first last =
+    if first >= last then Z.zero
+    else if last - first = 1 then entry first
+    else let middle = (first + last) / 2 in
+      Z.add (packed entry first middle) (Z.shift_left (packed entry middle last) (width * (middle - first))) in
+  let column entry = Array.init parts (fun b -> packed entry (b * many) (min n ((b + 1) * many))) in
+  let digit x i = Z.extract x.(i / many) (i mod many * width) width in
+  let plus u x first total =
+    for b = first to parts - 1 do if Z.sign x.(b) <> 0 then total.(b) <- Z.add total.(b) (Z.mul u x.(b)) done in
+  let exchange i j x =
+    let change = Z.sub (digit x j) (digit x i) in
+    let add k u = x.(k / many) <- Z.add x.(k / many) (Z.shift_left u (k mod many * width)) in
+    add i change; add j (Z.neg change) in
+  let swap m i j = let t = m.(i) in m.(i) <- m.(j); m.(j) <- t in
+  let a = Array.of_list (List.map (fun row -> Array.of_list (reduce l row)) rows) in
+  let columns = Array.init n (fun j -> column (fun i -> a.(i).(j))) and lower = Array.make n [||] in
+  let order = Array.init n Fun.id and h = Array.make_matrix n n Z.zero in
+  let current = ref (Array.init n (fun i -> if i = 0 then Z.one else Z.zero)) in
+  for j = 0 to n - 1 do
+    lower.(j) <- column (fun i -> if i > j then !current.(i) else Z.zero);
+    let total = Array.make parts Z.zero in
+    for i = j to n - 1 do if Z.sign !current.(i) <> 0 then plus !current.(i) columns.(i) 0 total done;
+    for i = 0 to j do
+      let x = Z.erem (digit total i) l in
+      h.(i).(j) <- x;
+      if Z.sign x <> 0 && i + 1 < n then plus (Z.sub l x) lower.(i) ((i + 1) / many) total
+    done;
+    if j + 1 < n then begin
+      let rest = Array.init n (fun i -> if i > j then Z.erem (digit total i) l else Z.zero) and k = ref (j + 1) in
+      while !k < n && Z.sign rest.(!k) = 0 do incr k done;
+      if !k = n then k := j + 1;
+      h.(j + 1).(j) <- rest.(!k);
+      if !k > j + 1 then begin
+        swap rest (j + 1) !k; swap columns (j + 1) !k; swap order (j + 1) !k;
+        Array.iter (exchange (j + 1) !k) columns;
+        for i = 0 to j do exchange (j + 1) !k lower.(i) done
       end;
-      let i = R.inverse h.(k).(k - 1) and u = Array.make n R.zero in
-      for r = k + 1 to n - 1 do
-        if not (R.is_zero h.(r).(k - 1)) then begin
-          u.(r) <- R.product h.(r).(k - 1) i;
-          less_row h r k u.(r) (k - 1) (n - 1);
-          less_row right r k u.(r) 0 (n - 1)
-        end
-      done;
-      add_columns h k u;
-      add_columns left k u
+      let f = if Z.sign rest.(j + 1) = 0 then Z.zero else inverse l rest.(j + 1) in
+      current := Array.mapi (fun i x -> if i = j + 1 then Z.one else if i > j then Z.erem (Z.mul f x) l else Z.zero) rest
     end
   done;
-  let rows m = Array.to_list (Array.map (fun row -> Array.to_list (Array.map R.to_z row)) m) in
-  { Kernel.h_H = rows h; h_L = rows left; h_Y = rows right }
+  let left = Array.make n [] in
+  Array.iteri (fun r place -> left.(place) <- List.init (r + 1) (fun c -> if c = r then Z.one else digit lower.(c) r)) order;
+  { Kernel.h_H = Array.to_list (Array.map Array.to_list h); h_L = Array.to_list left; h_order = Array.to_list order }
 
 (* The inverse of a square matrix modulo l, by pivots that are units. *)
 let inverted l m =
@@ -153,22 +112,8 @@ let inverted l m =
   done;
   Array.map (fun row -> Array.sub row n n) a
 
-(* det(xI - H): p_(k+1) = x p_k - sum_(i <= k) h_ik b_i ... b_(k-1) p_i, b the first subdiagonal, as `zchar` in
-   hessenberg_rule.v. *)
-let characteristic l n (w : Kernel.similar) =
-  let (module R) = residues l in
-  let h = Array.of_list (List.map (fun row -> Array.of_list (List.map R.of_z row)) w.Kernel.h_H) in
-  let p = Array.make (n + 1) [| R.one |] in
-  for k = 0 to n - 1 do
-    let next = Array.append [| R.zero |] p.(k) and product = ref R.one in
-    for i = k downto 0 do
-      let u = R.less R.zero R.one (R.product h.(i).(k) !product) in
-      if not (R.is_zero u) then Array.iteri (fun j x -> next.(j) <- R.plus next.(j) u x) p.(i);
-      if i > 0 then product := R.product !product h.(i).(i - 1)
-    done;
-    p.(k + 1) <- Array.map R.residue next
-  done;
-  List.map R.to_z (Array.to_list p.(n))
+(* det(xI - H) *)
+let characteristic l n (w : Kernel.similar) = trim (Kernel.zchar l w.Kernel.h_H n)
 
 (* Primes from 2^60 downwards. *)
 let primes =

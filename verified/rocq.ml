@@ -21,7 +21,7 @@ let disc c = record "ZDisc" [ z c.d_re; z c.d_im; z c.d_rad ]
 let regions g =
   let rate = match g.g_rate with None -> "None" | Some (low, high) -> Printf.sprintf "(Some (%s, %s))" (z low) (z high) in
   record "ZRegions" [ z g.g_w; bool g.g_continuous; list bool g.g_stable; list (list disc) g.g_discs; bool g.g_stabilizable; rate ]
-let similar w = record "Similar" [ matrix w.h_H; matrix w.h_L; matrix w.h_Y ]
+let similar w = record "Similar" [ matrix w.h_H; matrix w.h_L; list nat w.h_order ]
 let loop w = record "LoopWitness" [ z w.w_ell; z w.w_inv; list matrix w.w_gains; similar w.w_similar ]
 let power w = record "Power" [ z w.pw_inv; row w.pw_q; row w.pw_r; nat w.pw_place; z w.pw_unit ]
 let exponent x = record "ExponentWitness" [ row x.x_w; row x.x_q; row x.x_r; z x.x_k ]

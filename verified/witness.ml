@@ -55,7 +55,7 @@ let gains place l (channels : Kernel.zchannel list) acting value =
   go channels acting given
 
 let loop l d gains similar = { Kernel.w_ell = l; w_inv = Modular.inverse l d; w_gains = gains; w_similar = similar }
-let nothing = { Kernel.h_H = []; h_L = []; h_Y = [] }
+let nothing = { Kernel.h_H = []; h_L = []; h_order = [] }
 
 (* A loop with the polynomial of its matrix modulo l. *)
 let with_polynomial (s : Kernel.zsystem) l gains =

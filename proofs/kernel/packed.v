@@ -153,12 +153,19 @@ Proof.
 move=> l0; have [iv|iv] := ltnP i (size v); last by rewrite nth_default ?size_map.
 by rewrite (nth_map z0) //; apply: Z.mod_pos_bound.
 Qed.
+Lemma zvm_range l u N i : (forall k, 0 <= nth z0 u k < l)%coqZ -> (forall k j, 0 <= nth z0 (nth [::] N k) j < l)%coqZ ->
+  (0 <= nth z0 (zvm u N) i <= Z.of_nat (size N) * (l * l))%coqZ.
+Proof.
+have l2 := Z.square_nonneg l; elim: u N => [|x u IH] [|r N] ul Nl; rewrite ?[zvm _ _]/= ?nth_nil ?[size _]/=; try nia.
+rewrite nth_zvm; have b := IH N (fun k => ul k.+1) (fun k => Nl k.+1); have x0 := ul 0%N; have r0 := Nl 0%N i; rewrite /= in x0 r0; nia.
+Qed.
 Lemma zvm_bound l u N i : (0 < l)%coqZ ->
   (0 <= nth z0 (zvm (zmod l u) (zmat_mod l N)) i <= Z.of_nat (size N) * (l * l))%coqZ.
 Proof.
-move=> l0; elim: u N => [|x u IH] [|r N]; rewrite ?[zvm _ _]/= ?nth_nil ?[size _]/=; try nia.
-rewrite [zmod _ _]/= [zmat_mod _ _]/= nth_zvm -/(zmod l u) -/(zmat_mod l N).
-have b := IH N; have x0 := Z.mod_pos_bound x l l0; have r0 := nth_mod r i l0; nia.
+move=> l0; have -> : size N = size (zmat_mod l N) by rewrite size_map.
+apply: zvm_range => [k|k j]; first exact: nth_mod.
+have [kN|kN] := ltnP k (size N); last by rewrite (@nth_default _ [::]) ?size_map // nth_nil; lia.
+by rewrite (nth_map [::]) //; apply: nth_mod.
 Qed.
 
 Section Product.
