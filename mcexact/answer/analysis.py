@@ -244,7 +244,7 @@ NOT_CONNECTED = Template(
 )
 SOURCES = Template(
     "source-components",
-    "{parts:components}: no link leads into these from other agents",
+    "{parts:components}, which no other agent sends to",
     label="source components",
 )
 _ENOUGH = "sufficient to share"

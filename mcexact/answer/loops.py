@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, Literal
 
-from mcexact.answer.analysis import RECEIVE_TOO_LITTLE, WHATEVER_SHARED, Said, sides
+from mcexact.answer.analysis import RECEIVE_TOO_LITTLE, SOURCES, WHATEVER_SHARED, Said, sides
 from mcexact.answer.protocol import LEFT_OUT, Answer, Part, answer, claim, witness
 from mcexact.answer.sentence import Certified, Claim, Context, Rulebook
 from mcexact.answer.templates import Template
@@ -488,6 +488,13 @@ def _carrier(context: Context) -> Said:
     template = CARRIER if len(blocks) == 1 else CARRIER_FOR
     for block in blocks:
         yield template(agent=block.agent, order=block.order, channels=block.channels)
+
+
+@design_rule("table", SOURCES, premises=("shared_fixed_spectrum",))
+def _sources(shared_fixed_spectrum: Claim, context: Context) -> Said:
+    """The agents on which a design over a graph depends that is not strongly connected."""
+    if shared_fixed_spectrum.polynomial.degree < context.n:
+        yield SOURCES(parts=context.sources)
 
 
 @design_rule("table", ASSIGNED, premises=("loop",))

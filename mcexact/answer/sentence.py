@@ -83,11 +83,16 @@ class Context:
         heard = self.system.named(graph.union(self.system.indices(subset)))
         return [name for name in heard if name not in inside]
 
+    @property
+    def sources(self) -> list[tuple[str, ...]]:
+        """The strong components of the neighbor graph into which no link leads from others."""
+        plant = self.system.plant
+        return [plant.named(part) for part in plant.neighbors.source_components()]
+
     def receiving(self, subset: Sequence[str]) -> list[str]:
         """The names of a set of agents and of all others from which a path leads into the set."""
         graph = self.system.plant.neighbors.closure()
-        named: list[str] = self.system.named(sorted(graph.union(self.system.indices(subset))))
-        return named
+        return list(self.system.named(graph.union(self.system.indices(subset))))
 
 
 class Claim:

@@ -366,8 +366,7 @@ def _connected(neighbor_graph: Claim, context: Context) -> Said:
 def _sources(shared_fixed_spectrum: Claim, context: Context) -> Said:
     """The agents on which depends what any sharing leaves fixed."""
     if shared_fixed_spectrum.polynomial.degree:
-        graph = context.system.plant.neighbors
-        yield say.SOURCES(parts=[context.system.named(s) for s in graph.source_components()])
+        yield say.SOURCES(parts=context.sources)
 
 
 @sharing_rule("table", say.NEVER_CONTROLLED, premises=("joint_controllability",))

@@ -581,6 +581,7 @@ def closure(system: MultiChannelSystem, graph: NeighborGraph | None = None) -> M
     >>> closure(system).subject
     ({'construction': 'arcs', 'added': [['1', '3']]},)
     """
+    any_system(system)
     system, graph = with_graph(system, graph)
     return add_links(system, graph.closure().edges())
 

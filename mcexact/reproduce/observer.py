@@ -97,7 +97,7 @@ def drawn_observer(plant: MultiChannelSystem, F: Sequence[Matrix], numbers: Numb
         None,
     )
     gains = [hstack([K[i], *H[i].values()]) for i in range(m)]
-    controller = observer_programs(plant, graph, q, F, gains, channel)
+    controller = observer_programs(plant, graph, F, gains, {q: channel})
     return Observer(plant, F, q, K, H, channel, closed_loop(plant, controller))
 
 

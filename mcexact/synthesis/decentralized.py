@@ -21,7 +21,7 @@ from mcexact.derived.constructions import Share
 from mcexact.errors import Impossible, InputError, LimitReached, McexactError
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
-from mcexact.synthesis.design import Design
+from mcexact.synthesis.design import Design, with_stays
 from mcexact.synthesis.gate import Arithmetic, Progress, Request
 from mcexact.synthesis.network_design import network_design
 from mcexact.synthesis.networks import (
@@ -222,9 +222,8 @@ agent and do not observe it, and agent 1 does not control it
         options = dimensions, share, free_assignability, aims or Aims()
         asked = _Asked(system, graph, request, *options)
         refuse_what_stays(system, stays, request.region)
-        if network is None and asked.compares:
-            return asked.cheaper()
-        return asked.designed(network)
+        compares = network is None and asked.compares
+        return with_stays(asked.cheaper() if compares else asked.designed(network), stays)
 
     return at_a_reachable_rate(request, attempt)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from math import isfinite
@@ -13,6 +13,7 @@ from mcexact.analysis.boxes.failure import FAILING
 from mcexact.analysis.stability import certify_stability
 from mcexact.answer.account import Account, ShownByAccount
 from mcexact.answer.listing import DESIGN
+from mcexact.answer.modes import FixedSpectrum
 from mcexact.answer.protocol import Answer
 from mcexact.answer.sentence import Context
 from mcexact.errors import UsageError
@@ -259,6 +260,13 @@ def designed(
         proposal.parts,
         (*request.notes, *proposal.notes),
     )
+
+
+def with_stays(design: Design, stays: FixedSpectrum | None) -> Design:
+    """Add the certificate of what stays however much is shared over a graph, if there is one."""
+    if stays is None:
+        return design
+    return replace(design, certificates={**design.certificates, "shared_fixed_spectrum": stays})
 
 
 def _is_inside(loop: CertifiedLoop, region: StabilityRegion) -> bool:

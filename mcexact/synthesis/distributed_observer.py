@@ -1,43 +1,65 @@
 """Control by a distributed observer.
 
-`design_observer` designs agents that each estimate the whole state of the plant.  There are two
-kinds of observers, and `observers` yields proposals of both:
+`design_observer` designs agents that each estimate the whole state of the plant.  There are three
+kinds of observers, of which `observers` yields proposals:
 
 - with a channel controller at one agent (Theorem 1; see `observer`): exact arithmetic assigns any
   prescribed spectrum, floating point is for a rate or a radius;
+- with a channel controller in each strong component of the transfer graph of the errors, over a
+  graph that is not strongly connected (`_by_components`; exact and in floating point);
 - without one (`best_agreeing`; Kim, Shim and Cho 2016; Kim, Lee and Shim 2020): the agents use the
   optimal gains of all outputs together, and a strong coupling makes their estimates agree.  It has
   nm states, half as many as with a channel controller of full order, and all agents have programs
   of the same form; but it needs a strongly connected graph, and only floating point makes it.
 
-The second kind comes first in floating point, unless an agent was named for the channel controller;
-where its loop is fragile, or in discrete time much faster than asked, it is compared with some of
-the first kind.  The gate certifies the loop of either kind.  With ``order="low"`` a controller of
-low order that estimates nothing is designed as well, and the better one is kept.
+The last kind comes first in floating point over a strongly connected graph, unless an agent was
+named for the channel controller; where its loop is fragile, or in discrete time much faster than
+asked, it is compared with some of the first kind.  The gate certifies every loop.  With
+``order="low"`` a controller of low order that estimates nothing is designed as well, and the better
+one is kept.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import chain, product
+from itertools import chain
+from itertools import product as pairs
 from typing import Any, Literal
 
 import numpy as np
 
+from mcexact.analysis.fixed_modes import fixed_spectrum
+from mcexact.analysis.single_channel import drawn_integers
+from mcexact.answer import loops as say
+from mcexact.answer.loops import refusal
 from mcexact.derived.constructions import checked_gains, closed_by, error_system
+from mcexact.derived.modular import generator
 from mcexact.errors import Impossible, InputError, LimitReached, McexactError, UsageError, one_of
+from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Matrix, Rounding, matrix_from_float, matrix_to_float
+from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.roots import StabilityRegion, is_discrete
 from mcexact.floating.margins import is_within
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem, with_graph
-from mcexact.synthesis.channel_controller import ChannelController
 from mcexact.synthesis.decentralized import design_extended
-from mcexact.synthesis.design import Design, designed
+from mcexact.synthesis.design import Design, designed, with_stays
 from mcexact.synthesis.gate import Arithmetic, Progress, Proposal, Request
-from mcexact.synthesis.networks import decentralized_network, refuse_what_stays, stays_over
+from mcexact.synthesis.network_design import (
+    NetworkCandidate,
+    NetworkTask,
+    assigned_blocks,
+    found_candidate,
+    network_task,
+)
+from mcexact.synthesis.networks import (
+    DerivedNetwork,
+    decentralized_network,
+    refuse_what_stays,
+    stays_over,
+)
 from mcexact.synthesis.observer import (
     honors,
     most_promising,
@@ -61,7 +83,11 @@ from mcexact.synthesis.optimum.problem import (
 )
 from mcexact.synthesis.optimum.starts import estimator, regulator, whole_model
 from mcexact.synthesis.rate import request_for
-from mcexact.synthesis.state_feedback import loop_matrix, split_by_channel
+from mcexact.synthesis.state_feedback import (
+    feedback_for_region,
+    loop_matrix,
+    split_by_channel,
+)
 
 # Observers without a channel controller, whose estimates a coupling makes agree.
 
@@ -94,6 +120,10 @@ def observers(
     If an observer without a channel controller is fragile, or in discrete time much faster than
     asked, it is compared with some others.
     """
+    plain = request.agent is None and request.spectrum is None and order is None
+    if plain and not graph.delays and not graph.is_strongly_connected():
+        yield from _by_components(system, graph, request, gains)
+        return
     others = observer_proposals(system, graph, request, gains=gains, order=order)
     first = None
     if request.arithmetic == "float" and request.agent is None and not graph.delays:
@@ -265,7 +295,7 @@ def _tried(
 ) -> Iterator[Agreeing]:
     """Yield observers inside the region, of several strengths."""
     error = error_system(system, feedback, graph)
-    for L, drawn in product(filters, [*_drawn(system, graph, feedback)]):
+    for L, drawn in pairs(filters, [*_drawn(system, graph, feedback)]):
         for digits in _DIGITS:
             gains = _gains(system, graph, weights, L, drawn, digits)
             if is_within(matrix_to_float(closed_by(error, gains)), region):
@@ -315,11 +345,8 @@ def _proposal(
     gains: tuple[Matrix, ...],
 ) -> Proposal:
     """The agents' programs."""
-    n, seen = system.n, gains[0].ncols
-    none = ChannelController(
-        Matrix.zeros(0, 0), Matrix.zeros(0, seen), Matrix.zeros(n, 0), Matrix.zeros(n, seen), None
-    )
-    controller = observer_programs(system, graph, 0, feedback, gains, none)
+    n = system.n
+    controller = observer_programs(system, graph, feedback, gains, {})
     parts = {
         "channel_order": 0,
         "feedback": feedback,
@@ -327,6 +354,108 @@ def _proposal(
         "estimated": Matrix.identity(n),
     }
     return Proposal(controller, (), observer_coordinates(n, controller)[-1:], parts)
+
+
+# Observers over a graph that is not strongly connected.
+
+_FEEDBACKS = 6
+
+
+def _by_components(
+    system: MultiChannelSystem,
+    graph: NeighborGraph,
+    request: Request,
+    gains: Sequence[Matrix] | None,
+) -> Iterator[Proposal]:
+    """Yield observers with a channel controller in each strong component of the error system.
+
+    The errors are controlled as any network (`network_design`).  A mode stays fixed for them if it
+    stays however much agents share over the graph, and for F_i drawn at random besides these only
+    eigenvalues of A + Σ B_i F_i; campaign `any_graph` compares this with ranks of drawn plants.
+
+    Raises
+    ------
+    Impossible
+        If all F_i that were tried leave a mode of the errors fixed that is not fast enough.
+    LimitReached
+        If gains did not lead to controllers.
+    """
+    stuck = None
+    for feedback in _feedbacks(system, request, gains):
+        error = error_system(system, feedback, graph)
+        fixed = fixed_spectrum(error)
+        if fixed.outside(request.region):
+            stuck = fixed if stuck is None else stuck
+            continue
+        sizes = (system.n,) * system.m
+        network = DerivedNetwork("decentralized", system, graph, sizes, error, ())
+        task = network_task(network, fixed, replace(request, spectrum=None))
+        request.tell("observer gains for the error system")
+        candidate = found_candidate(task)
+        if candidate is not None:
+            yield _controlled(system, graph, feedback, task, candidate)
+    if stuck is not None:
+        raise refusal("fixed", stuck, template=say.ERRORS_FIXED, region=request.region)
+    raise LimitReached(
+        "no gains were found with which one agent in each strong component moves the errors: "
+        "design with shared states, by `design extended`"
+    )
+
+
+def _controlled(
+    system: MultiChannelSystem,
+    graph: NeighborGraph,
+    feedback: tuple[Matrix, ...],
+    task: NetworkTask,
+    candidate: NetworkCandidate,
+) -> Proposal:
+    """Write channel controllers of the errors as agent programs."""
+    controller = observer_programs(system, graph, feedback, candidate.gains, candidate.channels)
+    parts: dict[str, Any] = {
+        "blocks": assigned_blocks(task, candidate),
+        "feedback": feedback,
+        "observer_gains": candidate.gains,
+        "estimated": Matrix.identity(system.n),
+    }
+    polynomials: tuple[Polynomial, ...] = ()
+    if task.request.arithmetic == "exact":
+        of_feedback = characteristic_polynomial(loop_matrix(system, feedback))
+        of_errors = product([*candidate.polynomials.values(), candidate.kept])
+        polynomials = of_feedback, of_errors
+        parts |= {"feedback_polynomial": of_feedback, "error_polynomial": of_errors}
+    coordinates = observer_coordinates(system.n, controller)[-1:]
+    return Proposal(controller, polynomials, coordinates, parts)
+
+
+def _feedbacks(
+    system: MultiChannelSystem, request: Request, gains: Sequence[Matrix] | None
+) -> Iterator[tuple[Matrix, ...]]:
+    """Yield F_i with A + Σ B_i F_i in the region, with which soon all agents act.
+
+    An agent that does not act moves no mode that others do not observe.  So F_i are drawn, and
+    the others added to them.
+    """
+    if gains is not None:
+        yield tuple(gains)
+        return
+    request.tell("state feedback")
+    if request.arithmetic == "float":
+        with quiet_floats():
+            optimal = _optimal(system, request.region, None)
+        if optimal is not None:
+            yield optimal[0]
+    rng = generator(system, "feedback")
+    yield feedback_for_region(system, request.region).gains
+    for size in range(1, _FEEDBACKS):
+        drawn = [drawn_integers(rng, p, system.n, size, 1.0) for p, _ in system.sizes]
+        acting = MultiChannelSystem(
+            loop_matrix(system, tuple(drawn)),
+            [channel.B for channel in system.channels],
+            [channel.C for channel in system.channels],
+            time=system.time,
+        )
+        more = feedback_for_region(acting, request.region).gains
+        yield tuple(F + each for F, each in zip(drawn, more, strict=True))
 
 
 # `design_observer`, with and without a channel controller.
@@ -411,8 +540,9 @@ def design_observer(
     channel q controls the error system with index m and observes it, and its matrix is cyclic; then
     the Brasch–Pearson controller.  Of several draws the one with the shortest numbers is kept.  The
     certificate (`proofs/distributed_observer.md`) contains the controller and proves the separation
-    and both polynomials.  A strongly connected graph is sufficient, but not necessary, since the
-    question is decided for the error system itself.
+    and both polynomials.  Over a graph that is not strongly connected it is decided first whether
+    any sharing over it suffices (`stays_over`).  Without a spectrum or a named agent, one agent in
+    each strong component of the transfer graph of the errors then has a channel controller.
 
     Examples
     --------
@@ -445,8 +575,8 @@ and does not observe it, and agent 2 does not control it
             )
         return _better(system, graph, request)
     if order is not None or special or not request.notes:
-        return _observer(system, graph, request, exact, order)
-    return _unless_fragile(system, graph, request)
+        return with_stays(_observer(system, graph, request, exact, order), stays)
+    return with_stays(_unless_fragile(system, graph, request), stays)
 
 
 def _unless_fragile(system: MultiChannelSystem, graph: NeighborGraph, request: Request) -> Design:

@@ -268,14 +268,12 @@ def network_proposals(network: DerivedNetwork, request: Request) -> Iterator[Pro
     request.tell("fixed modes")
     fixed = fixed_spectrum(network.system)
     require_fast(network, fixed, request.region)
-    components, choices = _choices(network, request.agent)
-    task = NetworkTask(network, components, choices, fixed, prescribed, request)
+    task = network_task(network, fixed, request, prescribed)
     request.tell("decentralized gains")
-    for attempts in (_ATTEMPTS, _MORE_ATTEMPTS):
-        candidate = best_candidate(task, drawn_gains(network.system, choices, attempts=attempts))
-        if candidate is not None:
-            yield _proposal(task, candidate)
-            return
+    candidate = found_candidate(task)
+    if candidate is not None:
+        yield _proposal(task, candidate)
+        return
     if request.arithmetic == "float":
         raise LimitReached(
             "no Riccati equations of single channels led to a controller in double precision: "
@@ -284,6 +282,38 @@ def network_proposals(network: DerivedNetwork, request: Request) -> Iterator[Pro
     raise LimitReached(
         f"gains exist, but {_MORE_ATTEMPTS} draws did not find ones that move every mode that is "
         "not fixed"
+    )
+
+
+def network_task(
+    network: DerivedNetwork, fixed: FixedSpectrum, request: Request, prescribed: Any = None
+) -> NetworkTask:
+    """The task of a network with these fixed modes, by the components of its transfer graph."""
+    components, choices = _choices(network, request.agent)
+    return NetworkTask(network, components, choices, fixed, prescribed, request)
+
+
+def found_candidate(task: NetworkTask) -> NetworkCandidate | None:
+    """Draw gains, and return the best candidate, or None after many draws."""
+    for attempts in (_ATTEMPTS, _MORE_ATTEMPTS):
+        drawn = drawn_gains(task.network.system, task.choices, attempts=attempts)
+        candidate = best_candidate(task, drawn)
+        if candidate is not None:
+            return candidate
+    return None
+
+
+def assigned_blocks(task: NetworkTask, candidate: NetworkCandidate) -> tuple[AssignedBlock, ...]:
+    """The strong components with their channel controllers, and the spectra assigned."""
+    names = task.network.plant.names
+    return tuple(
+        AssignedBlock(
+            tuple(names[i] for i in task.components[task.component_of(channel)]),
+            names[channel],
+            part.order,
+            candidate.polynomials[channel],
+        )
+        for channel, part in candidate.channels.items()
     )
 
 
@@ -334,20 +364,11 @@ def _choices(
 def _proposal(task: NetworkTask, candidate: NetworkCandidate) -> Proposal:
     """Write a candidate as agent programs."""
     network, names = task.network, task.network.plant.names
-    blocks = tuple(
-        AssignedBlock(
-            tuple(names[i] for i in task.components[task.component_of(channel)]),
-            names[channel],
-            part.order,
-            candidate.polynomials[channel],
-        )
-        for channel, part in candidate.channels.items()
-    )
     parts = {
         "network": network.kind,
         "dimensions": dict(zip(names, network.dimensions, strict=True)),
         "observer_order": network.plant.n * network.plant.m + network.plant.m - 1,
-        "blocks": blocks,
+        "blocks": assigned_blocks(task, candidate),
         "kept": candidate.kept,
         "gains": candidate.gains,
         "fixed_spectrum": task.spectrum,

@@ -292,6 +292,7 @@ def _sizes(
         # dimensions suffice, neither do as many as there are states.
         return None, least.dimensions or (system.n,) * system.m
     if least.dimensions is None:
+        refuse_what_stays(system, stays_over(*with_graph(system, None)), region)
         refuse_joint_modes(system, region)
         raise refusal("connection", least)
     return least, least.dimensions

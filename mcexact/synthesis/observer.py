@@ -145,10 +145,9 @@ def _coordinates(n: int, private: list[int], Y: Matrix | None) -> Coordinates:
 def observer_programs(
     system: MultiChannelSystem,
     graph: NeighborGraph,
-    agent: int,
     feedback: Sequence[Matrix],
     observer_gains: Sequence[Matrix],
-    channel: ChannelController,
+    channels: Mapping[int, ChannelController],
 ) -> Controller:
     """Write the observer as agent programs.
 
@@ -156,30 +155,29 @@ def observer_programs(
     ----------
     system : MultiChannelSystem
     graph : NeighborGraph
-    agent : int
-        q, counted from 0.
     feedback : sequence of Matrix
         F_i, p_i×n.
     observer_gains : sequence of Matrix
         [K_i, H_ij, j ∈ N_i∖{i}], n×(q_i + n(|N_i| − 1)), of the open-loop observer.
-    channel : ChannelController
-        The channel controller, for channel q of the error system.
+    channels : mapping of int to ChannelController
+        The channel controllers, for channels q of the error system.
 
     Notes
     -----
     Paper, section II-C, equations (10) and (11)::
 
-        ẋ_i = (A + Σ B_jF_j + K_iC_i) x_i − K_i y_i + Σ H_ij (x_i − x_j)  (+ C̄ z for i = q)
+        ẋ_i = (A + Σ B_jF_j + K_iC_i) x_i − K_i y_i + Σ H_ij (x_i − x_j)  (+ C̄ z for each q)
         ż   = Ā z + K̄ (C_q x_q − y_q) + Σ H̄_j (x_q − x_j),     u_i = F_i x_i
     """
     n, closed = system.n, loop_matrix(system, tuple(feedback))
     programs = []
     for i in range(system.m):
         others = [j for j in graph.neighborhood(i) if j != i]
-        own = observer_gains[i] + channel.D if i == agent else observer_gains[i]
+        channel = channels.get(i)
+        own = observer_gains[i] if channel is None else observer_gains[i] + channel.D
         update = _innovation(system, i, others, own, closed)
         private, private_update = 0, LinearMap()
-        if i == agent:
+        if channel is not None:
             private = channel.order
             update = LinearMap(update.outputs, update.shared, channel.C)
             driven = _innovation(system, i, others, channel.B, Matrix.zeros(private, n))
@@ -520,7 +518,7 @@ def _proposal(task: ObserverTask, estimated: Matrix) -> Proposal:
     candidate, channel, error = best_channel_controller(task)
     feedback = task.feedback
     controller = observer_programs(
-        task.system, task.graph, task.agent, feedback.gains, candidate.gains, channel
+        task.system, task.graph, feedback.gains, candidate.gains, {task.agent: channel}
     )
     parts = {
         "agent": task.system.names[task.agent],
@@ -785,7 +783,8 @@ def _float_proposal(
 ) -> Proposal:
     """A candidate as programs."""
     observer = each.observer
-    controller = observer_programs(system, graph, agent, F, each.observer_gains, observer.channel)
+    channels = {agent: observer.channel}
+    controller = observer_programs(system, graph, F, each.observer_gains, channels)
     parts = {
         "agent": system.names[agent],
         "channel_order": observer.channel.order,

@@ -7,7 +7,10 @@ plant over a drawn directed graph, strongly connected or not, it is compared
   gains F, as `design_observer` decides it, with rank P_s(λ) < n for some closed set s of agents,
   that is N_s = s (no agent of s receives from others); eigenvalues of A + Σ B_j F_j are left out;
 - which modes stay where agents may use the outputs of those that they receive from, with ranks for
-  all sets, and with the multiplicities that drawn gains of this pattern leave.
+  all sets, and with the multiplicities that drawn gains of this pattern leave;
+- which modes stay however much is shared (`closure`), with ranks for closed sets;
+- whether `design_observer` designs for a rate or a radius, or refuses, with what these ranks say of
+  the modes that are not fast enough.
 
 The checker has to accept each certificate.  Systems in the file (by default
 ``build/any_graph.jsonl``) are not examined again.
@@ -20,13 +23,18 @@ import sys
 from collections import Counter
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
+
+from flint import fmpq, fmpq_poly
 
 from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.answer import protocol
 from mcexact.checker.kinds import check_document
-from mcexact.derived.constructions import augmented_outputs, error_system
+from mcexact.derived.constructions import augmented_outputs, closure, error_system
+from mcexact.errors import Impossible, LimitReached
 from mcexact.model.graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.distributed_observer import design_observer
 from tests.assurance.campaigns.resumed import Examined, main
 from tests.oracle.draws import exact, sparse_system
 from tests.oracle.enumeration import (
@@ -40,6 +48,7 @@ from tests.oracle.enumeration import (
     product,
     subsets,
 )
+from tests.oracle.sentences.cases import Region
 
 FILE = Path("build") / "any_graph.jsonl"
 
@@ -65,6 +74,37 @@ def fed_back(system: PlainSystem, gains: list[Rows]) -> Rows:
         closed = [[a + b for a, b in zip(*rows, strict=True)]
                   for rows in zip(closed, moved, strict=True)] if moved else closed  # fmt: skip
     return closed
+
+
+def observed(system: MultiChannelSystem, stays: set[Coefficients], seen: Counter[str]) -> list[str]:
+    """What is wrong with a design of an observer, or with its refusal."""
+    discrete = system.time == "discrete"
+    bound = Fraction(9, 10) if discrete else Fraction(1, 10)
+    region = Region(system.time, fmpq(bound.numerator, bound.denominator))
+    slow = [p for p in stays if not region.contains(fmpq_poly([fmpq_of(c) for c in p]))]
+    try:
+        wanted: dict[str, Any] = {"radius": bound} if discrete else {"rate": bound}
+        design = design_observer(system, **wanted)
+    except Impossible as refused:
+        certificates, made = [refused.certificate], False
+    except LimitReached as limit:
+        return [f"no observer, but no reason: {limit}"]
+    else:
+        certificates, made = [*design.certificates.values()], design.stable
+    seen["observers designed" if made else "observers refused"] += 1
+    seen["certificates"] += len(certificates)
+    wrong = [f"an observer is {'' if made else 'not '}designed, where {slow} stay"]
+    wrong = wrong if made == bool(slow) else []
+    for each in certificates:
+        if check_document(protocol.encode(each).encode("ascii")).verdict != "VALID":
+            wrong.append(f"the checker does not accept a certificate of the kind {each.kind}")
+    return wrong
+
+
+def fmpq_of(value: Fraction | int) -> fmpq:
+    """The same number."""
+    exact_value = Fraction(value)
+    return fmpq(exact_value.numerator, exact_value.denominator)
 
 
 def examined(number: int) -> Examined:
@@ -103,10 +143,12 @@ def examined(number: int) -> Examined:
     compare(error_system(system, gains), stays, moved & {*modes}, "observer")
 
     used = PlainSystem(lists.A, lists.B, [[row for j in N for row in lists.C[j]] for N in heard])
+    compare(augmented_outputs(closure(system)), stays, set(), "any sharing")
     fixed = {p for p in modes if any(pencil_rank(used, s, p) < n for s in subsets(m))}
     compare(augmented_outputs(system), fixed, set(), "outputs of neighbors")
     if fixed != {p for p in modes if least_multiplicity(used, p, number)}:
         wrong.append("outputs of neighbors: drawn gains move what ranks say is fixed, or do not")
+    wrong += observed(system, stays, seen)
     seen["systems"] += 1
     seen["strongly connected graphs"] += graph.is_strongly_connected()
     seen["where closed sets matter"] += stays != {
