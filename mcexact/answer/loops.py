@@ -13,7 +13,7 @@ why no requested design exists.  Templates precede the rules that fill them.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any, Literal
 
@@ -234,6 +234,7 @@ CARRIER_FOR = Template(
     "{agent:name}, of order {order:int}, for {channels:channels}",
     label="agent with the channel controller",
 )
+DESIGN_SOURCES = replace(SOURCES, key="design-source-components")
 ORDER = Template("design-order", "{order:int}", label="states of all agents together")
 ORDER_INTEGRATORS = Template(
     "design-order-integrators",
@@ -490,11 +491,11 @@ def _carrier(context: Context) -> Said:
         yield template(agent=block.agent, order=block.order, channels=block.channels)
 
 
-@design_rule("table", SOURCES, premises=("shared_fixed_spectrum",))
+@design_rule("table", DESIGN_SOURCES, premises=("shared_fixed_spectrum",))
 def _sources(shared_fixed_spectrum: Claim, context: Context) -> Said:
     """The agents on which a design over a graph depends that is not strongly connected."""
     if shared_fixed_spectrum.polynomial.degree < context.n:
-        yield SOURCES(parts=context.sources)
+        yield DESIGN_SOURCES(parts=context.sources)
 
 
 @design_rule("table", ASSIGNED, premises=("loop",))

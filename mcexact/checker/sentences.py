@@ -1079,7 +1079,7 @@ def _free_shared(premise: Premise) -> str:
     return f"For {base.words}: {what}"
 
 
-@rule("source-components", WHATEVER_SHARED)
+@rule("source-components design-source-components", WHATEVER_SHARED)
 def _sources(premise: Premise) -> str:
     """The strong components into which no link leads: sets that are closed, and no smaller ones."""
     base = before_links(premise)

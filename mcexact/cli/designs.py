@@ -187,8 +187,7 @@ def designed(
         reason, proof = refused.message, refused.certificate
         region = StabilityRegion.of(system.time, wanted["rate"], wanted["radius"])
         sentences = Sentences([reason] if isinstance(reason, Sentence) else [])
-        about = () if base.D is None else system.subject
-        account = Account({proof.kind: proof}, Context(system), sentences, about)
+        account = Account({proof.kind: proof}, Context(system), sentences, system.subject)
         return Refused(
             evidence=Evidence.of(account, system_by_digest),
             document=account.as_json(design=name, possible=False, reason=reason),

@@ -214,6 +214,7 @@ def test_a_link_that_the_plant_has_is_used_and_not_advised(
         ],
     }
     path.write_text(json.dumps({**document, **neighbors}), encoding="utf-8")
+    assert run("design", "decentralized", str(path), "--step", "1/2").status == 1
     done = run("design", "decentralized", str(path), "--rate", "1/10")
     assert done.status == 1 and f"`{advised.format(path)}`" in done.stderr
 

@@ -82,7 +82,7 @@ def _is_not_connected(said: Said, case: Case) -> bool:
     return case.plant.neighborhoods is not None and not _connected(case)
 
 
-@judge("source-components")
+@judge("source-components", "design-source-components")
 def _source_components(said: Said, case: Case) -> bool:
     """The strong components into which no edge leads from others."""
     neighborhoods = case.plant.neighborhoods or ()
