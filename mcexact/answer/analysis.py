@@ -15,7 +15,7 @@ from fractions import Fraction
 
 from mcexact.answer.sentence import Claim, Context, Rulebook, Several
 from mcexact.answer.templates import Sentence, Template
-from mcexact.exact.polynomial import product
+from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.roots import exact_decimal, steady_point
 
 # Templates of the answer, and of the table of all answers.
@@ -481,11 +481,22 @@ def _shared(
         yield FREE_SHARED(time=context.delays)
         return
     reach = (joint_controllability, joint_observability)
+    for p, inside, outside in receive_too_little(shared_fixed_spectrum, reach, context):
+        yield STAYS_SHARED(p=p, inside=inside, outside=outside)
+
+
+def receive_too_little(
+    shared: Claim, reach: Iterable[Claim], context: Context
+) -> Iterator[tuple[Polynomial, list[str], list[str]]]:
+    """Yield the modes that stay since some agents receive too little, and the two sets of agents.
+
+    These are no modes that all agents together do not control or observe, as ``reach`` has them.
+    """
     lost = [claim.uncontrollable_polynomial for claim in reach]
-    for factor in shared_fixed_spectrum.factors.separately():
+    for factor in shared.factors.separately():
         p, (inside, outside) = factor.polynomial, sides(factor, context)
         if inside and outside and all(p.gcd(q).degree == 0 for q in lost):
-            yield STAYS_SHARED(p=p, inside=inside, outside=outside)
+            yield p, inside, outside
 
 
 def sides(factor: Claim, context: Context) -> tuple[list[str], list[str]]:

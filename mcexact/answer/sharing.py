@@ -362,10 +362,20 @@ def _connected(neighbor_graph: Claim, context: Context) -> Said:
     yield say.CONNECTED() if neighbor_graph.strongly_connected else say.NOT_CONNECTED()
 
 
-@sharing_rule("table", say.SOURCES, premises=("shared_fixed_spectrum",))
-def _sources(shared_fixed_spectrum: Claim, context: Context) -> Said:
-    """The agents on which depends what any sharing leaves fixed."""
-    if shared_fixed_spectrum.polynomial.degree:
+@sharing_rule(
+    "table",
+    say.SOURCES,
+    premises=("shared_fixed_spectrum", "joint_controllability", "joint_observability"),
+)
+def _sources(
+    shared_fixed_spectrum: Claim,
+    joint_controllability: Claim,
+    joint_observability: Claim,
+    context: Context,
+) -> Said:
+    """The source components, where some agents receive too little."""
+    reach = (joint_controllability, joint_observability)
+    if any(say.receive_too_little(shared_fixed_spectrum, reach, context)):
         yield say.SOURCES(parts=context.sources)
 
 
