@@ -876,8 +876,9 @@ def internal_model(system: System, step: dict[str, Json], place: str) -> System:
     """Signals of a polynomial, continued by models of S_i y_i; agent i measures its w_i and y_i.
 
     With D, the last block of w_i has S_i D_i u beside S_i C_i x, D_i the rows of D of agent i.
+    The theorems have no D; ``proofs/internal_model.md`` has one.
 
-    Open: see ``proofs/OPEN.md``.
+    Theorems ``internal_model.signal_fixed``, ``internal_model.other_fixed``.
     """
     coefficients, listed = fields(step, place, "polynomial", "gains")
     alpha = polynomial(coefficients, f"{place}.polynomial", 1)

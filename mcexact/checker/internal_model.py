@@ -20,6 +20,8 @@ def largest_model(inner: Rows, own: Rows, reference: Rows, others: Rows, s: Row)
     """The largest monic p of which z' = inner z + own y + reference r + … has a model behind s.
 
     It is 1 if there is none.  ``others`` are the coefficients of all other signals.
+
+    Open: see ``proofs/OPEN.md``.
     """
     place = next(j for j, x in enumerate(s) if x)
     gains = [row[place] / s[place] for row in own]
