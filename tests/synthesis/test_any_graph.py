@@ -7,8 +7,10 @@ from typing import Any
 
 import pytest
 
+from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.answer.protocol import encode
 from mcexact.checker.kinds import check_document
+from mcexact.derived.constructions import augmented_outputs
 from mcexact.errors import Impossible
 from mcexact.model.system import MultiChannelSystem, with_graph
 from mcexact.synthesis.decentralized import design_extended
@@ -96,3 +98,13 @@ def test_a_rate_that_is_chosen_is_slow_enough_for_stable_modes_that_stay() -> No
     )
     design = design_observer(plant)
     assert proved(design) and design.region.bound is not None and design.region.bound < 1 / 100
+
+
+def test_what_is_measured_two_links_away_is_used() -> None:
+    """Agent 1 sees the mode that agent 3 drives, and agent 2 passes on what it estimates."""
+    chain = {"2": ["1"], "3": ["2"]}
+    ports = [[[0]], [[0]], [[1]]], [[[1]], [[0]], [[0]]]
+    plant = MultiChannelSystem([[1]], *ports, neighbors=chain)
+    stays = stays_over(*with_graph(plant, None))
+    assert stays is not None and stays.empty and not fixed_spectrum(augmented_outputs(plant)).empty
+    assert proved(design_observer(plant, rate="1/2"))
