@@ -45,11 +45,9 @@ let read_program place known outputs shares nrows own value =
 (* The canonical form: keys that say nothing are left out. *)
 let json_of agents names time =
   let whole i = Json.Int (Z.of_int i) in
-  let entry x = if Z.equal (Q.den x) Z.one then Json.Int (Q.num x) else Json.String (Q.to_string x) in
-  let matrix rows = Json.List (List.map (fun row -> Json.List (List.map entry row)) rows) in
   let kept key empty value = if empty then [] else [ (key, value) ] in
-  let named l = Json.Object (List.map (fun u -> (u.from, matrix u.coefficients)) l) in
-  let single key = function None -> [] | Some rows -> [ (key, matrix rows) ] in
+  let named l = Json.Object (List.map (fun u -> (u.from, Json.of_rows u.coefficients)) l) in
+  let single key = function None -> [] | Some rows -> [ (key, Json.of_rows rows) ] in
   let program p =
     kept "outputs" (p.outputs = []) (named p.outputs) @ kept "shared" (p.shared = []) (named p.shared) @ single "private" p.own @ single "reference" p.reference in
   let agent a =

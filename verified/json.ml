@@ -226,6 +226,19 @@ let rational place value =
        Q.make p q)
   | _ -> bad ()
 
+(* The same as it is written, and a matrix by its rows. *)
+let of_rational x = if Z.equal (Q.den x) Z.one then Int (Q.num x) else String (Q.to_string x)
+let of_rows rows = List (List.map (fun row -> List (List.map of_rational row)) rows)
+
+(* Integers over one denominator. *)
+let integer_rows place nrows ncols value =
+  List.map (fun row -> List.map (integer place) (items ~length:ncols place row)) (items ~length:nrows place value)
+let denominator place value = integer ~least:1 place value
+let matrix place nrows ncols value =
+  match fields place [ "denominator"; "entries" ] value with
+  | [ d; entries ] -> (denominator place d, integer_rows place nrows ncols entries)
+  | _ -> assert false
+
 let rec increasing = function a :: (b :: _ as rest) -> a < b && increasing rest | _ -> true
 
 let positions place below value =

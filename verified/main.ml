@@ -9,14 +9,12 @@ let version = "3"
 (* What a certificate says in words, whether the kernel proves it, and the theorem as a file of Rocq. *)
 type read = { statement : string; proves : unit -> bool; theorem : unit -> string }
 
-(* Of the system that the claim is about: the plant, its dual, or a loop. *)
+(* Of the system that the claim is about: what constructions make of the plant, or a loop. *)
 let claimed kind (plant : Plant.t) subject claim witness =
-  let known = plant.Plant.names and listed = Plant.listed plant in
-  let m = List.length known and s = if subject = Subject.Dual then Kernel.zdual listed else listed in
-  let about words = Words.statement plant subject words in
-  let file = Rocq.file plant.Plant.digest listed subject in
-  let of_no_loop () = match subject with
-    | Subject.Loop _ -> incomplete "subject" "of loops, spectrum and stability are verified here" | Subject.Plain | Subject.Dual -> () in
+  let known = subject.Subject.known and s = subject.Subject.system and loop = subject.Subject.loop in
+  let m = List.length known and about = Subject.statement plant subject in
+  let file = Rocq.file plant.Plant.digest (Plant.listed plant) subject in
+  let of_no_loop () = if loop <> None then incomplete "subject" "of loops, spectrum and stability are verified here" in
   match kind with
   | "fixed_spectrum" ->
     of_no_loop ();
@@ -55,25 +53,25 @@ let claimed kind (plant : Plant.t) subject claim witness =
   | "closed_loop_spectrum" ->
     let said = Claim.read_spectrum claim in
     let meant = Claim.integers said in
-    let d, rows = Structure.loop_matrix s subject in
+    let d, rows = Structure.loop_matrix s loop in
     let f, w = Structure.spectrum d rows said witness in
     { statement = about (Words.closed_loop_spectrum said);
       proves = (fun () ->
-          match subject with Subject.Loop c -> Kernel.check_loop_spectrum s c.Controller.listed meant f w | _ -> Kernel.check_open_spectrum s meant f w);
-      theorem = (fun () -> file (Rocq.closed_loop_spectrum subject meant (f, w))) }
+          match loop with Some c -> Kernel.check_loop_spectrum s c.Controller.listed meant f w | None -> Kernel.check_open_spectrum s meant f w);
+      theorem = (fun () -> file (Rocq.closed_loop_spectrum loop meant (f, w))) }
   | "stability" ->
     let said = Claim.read_stability plant.Plant.time claim in
     let flag = said.Claim.stable_loop and continuous = plant.Plant.time = "continuous" in
     let u = Q.num said.Claim.bound and v = Q.den said.Claim.bound in
     Structure.require_by_polynomial witness;
-    let d, rows = Structure.loop_matrix s subject in
+    let d, rows = Structure.loop_matrix s loop in
     let f, w = Modular.spectrum d rows in
     { statement = about (Words.stability plant.Plant.time said);
       proves = (fun () ->
-          match subject with
-          | Subject.Loop c -> Kernel.check_loop_stability s c.Controller.listed continuous u v flag f w
-          | _ -> Kernel.check_open_stability s continuous u v flag f w);
-      theorem = (fun () -> file (Rocq.stability subject continuous u v flag (f, w))) }
+          match loop with
+          | Some c -> Kernel.check_loop_stability s c.Controller.listed continuous u v flag f w
+          | None -> Kernel.check_open_stability s continuous u v flag f w);
+      theorem = (fun () -> file (Rocq.stability loop continuous u v flag (f, w))) }
   | _ -> incomplete "kind" "not a kind that is verified here"
 
 let certificate text =

@@ -84,7 +84,7 @@ let above w = record "AboveWitness" [ z w.x_den; matrix w.x_W1; list matrix w.x_
 let layer (first, rest) = Printf.sprintf "(%s, %s)" (matrix first) (list matrix rest)
 
 (* What a theorem is about and where the meaning of its words is said; its definitions with their types; what it says of
-   the system over a field; and the lemmas that prove it of the plant and of its dual, with their arguments. *)
+   the system over a field; and the lemmas that prove it of the plant and of what constructions make of it, with their arguments. *)
 type theorem = { name : string; about : string; meaning : string; definitions : (string * string * string) list;
                  says : (string -> string) -> string; plain : string; turned : string }
 
@@ -96,27 +96,27 @@ let fixed_spectrum c g rules =
     definitions = [ ("claim", "zclaim", claim c); ("regions", "zregions", regions g); ("rules", "seq rule", list rule rules) ];
     says = (fun system -> Printf.sprintf "(%s) /\\\n  (forall C : numClosedFieldType, regions_hold %s claim regions)"
         (over_fields (Printf.sprintf "claim_holds %s claim" (system "K"))) (system "C"));
-    plain = "@check_whole_plant plant rules regions claim"; turned = "@fixed_spectrum_dual plant sized rules regions claim" }
+    plain = "@check_whole_plant plant rules regions claim"; turned = "@fixed_spectrum_subject plant constructions subject sized made rules regions claim" }
 
 let controllability (c : zreach) a w =
   { name = "controllability"; about = "What the inputs of some channels reach, of"; meaning = "reach_holds, in mcexact.kernel.reach_rule, says what the claim means.";
     definitions = [ ("claim", "zreach", record "ZReach" [ list bool c.r_T; nat c.r_dim; bool c.r_all; row c.r_poly ]);
                     ("above", "annihilator", annihilator a); ("below", "reach_evidence", from_below w) ];
     says = (fun system -> over_fields (Printf.sprintf "reach_holds %s claim" (system "K")));
-    plain = "@controllability_plant plant sized claim above below"; turned = "@controllability_dual plant sized claim above below" }
+    plain = "@controllability_plant plant sized claim above below"; turned = "@controllability_subject plant constructions subject sized made claim above below" }
 
 let transfer_graph (c : zgraph) w =
   { name = "transfer_graph"; about = "Which channels reach which, of"; meaning = "graph_holds, in mcexact.kernel.arcs_rule, says what the claim means.";
     definitions = [ ("claim", "zgraph", record "ZGraph" [ list (list bool) c.g_edges; list nat c.g_parts; bool c.g_connected ]);
                     ("evidence", "graph_witness", record "GraphWitness" [ arcs w.t_arcs; list (list bool) w.t_held; list zero w.t_zeros; parts w.t_parts; list nat w.t_order ]) ];
     says = (fun system -> over_fields (Printf.sprintf "graph_holds %s claim" (system "K")));
-    plain = "@transfer_graph_plant plant sized claim evidence"; turned = "@transfer_graph_dual plant sized claim evidence" }
+    plain = "@transfer_graph_plant plant sized claim evidence"; turned = "@transfer_graph_subject plant constructions subject sized made claim evidence" }
 
 let completeness holds w =
   { name = "completeness"; about = "Whether it is complete: for"; meaning = "complete is defined in mcexact.completeness.";
     definitions = [ ("evidence", "complete_evidence", complete w) ];
     says = (fun system -> Printf.sprintf "complete %s <-> %s" (system "[fieldType of rat]") (bool holds));
-    plain = "@completeness_plant plant sized evidence " ^ bool holds; turned = "@completeness_dual plant sized evidence " ^ bool holds }
+    plain = "@completeness_plant plant sized evidence " ^ bool holds; turned = "@completeness_subject plant constructions subject sized made evidence " ^ bool holds }
 
 let setpoint discrete (c : zsetpoint) w =
   { name = "setpoint"; about = "The rank that decides set-points, of"; meaning = "setpoint_holds, in mcexact.kernel.setpoint_rule, says what the claim means.";
@@ -124,58 +124,70 @@ let setpoint discrete (c : zsetpoint) w =
                     ("evidence", "setpoint_witness", record "SetpointWitness" [ below w.sp_below; above w.sp_above; z w.sp_point; below w.sp_full; list layer w.sp_row ]) ];
     says = (fun system -> over_fields (Printf.sprintf "setpoint_holds %s %s claim" (bool discrete) (system "K")));
     plain = Printf.sprintf "@setpoint_plant plant sized %s claim evidence" (bool discrete);
-    turned = Printf.sprintf "@setpoint_dual plant sized %s claim evidence" (bool discrete) }
+    turned = Printf.sprintf "@setpoint_subject plant constructions subject sized made %s claim evidence" (bool discrete) }
 
 (* `closed_loop_spectrum` and `stability`, whose loops are systems of their own *)
 let agent a = record "ZAgent" [ nat a.ag_states; matrix a.ag_update; matrix a.ag_input ]
 let evidence (f, w) = [ ("polynomial", "zrow", row f); ("evidence", "spectrum_witness", spectrum w) ]
-let controlled subject definitions = match subject with
-  | Subject.Loop c ->
+let controlled loop definitions = match loop with
+  | Some c ->
     let c = c.Controller.listed in
     ("controller", "zcontroller", record "ZController" [ z c.co_den; list agent c.co_agents ]) :: definitions
-  | _ -> definitions
-let matrix_of subject system field = match subject with
-  | Subject.Loop _ -> Printf.sprintf "(system_loop %s plant controller)" field | _ -> Printf.sprintf "(mcA %s)" (system field)
-let about_matrix subject words = match subject with Subject.Loop _ -> words ^ " the loop of the controller with" | _ -> words
-let meaning_of subject words = match subject with
-  | Subject.Loop _ -> words ^ " system_loop, in mcexact.kernel.program_rule,\n   is the matrix of the loop." | _ -> words
+  | None -> definitions
+let matrix_of loop system field =
+  if loop = None then Printf.sprintf "(mcA %s)" (system field) else Printf.sprintf "(system_loop %s plant controller)" field
+let about_matrix loop words = if loop = None then words else words ^ " the loop of the controller with"
+let meaning_of loop words = if loop = None then words else words ^ " system_loop, in mcexact.kernel.program_rule,\n   is the matrix of the loop."
 
-let closed_loop_spectrum subject p proof =
-  { name = "closed_loop_spectrum"; about = about_matrix subject "The characteristic polynomial of";
-    meaning = meaning_of subject "up, in mcexact.kernel.lists, is the monic polynomial of a list.";
-    definitions = controlled subject (("claim", "zrow", row p) :: evidence proof);
-    says = (fun system -> Printf.sprintf "forall (K : fieldType) (h : {rmorphism rat -> K}), char_poly %s = up K claim" (matrix_of subject system "K"));
-    plain = (match subject with
-        | Subject.Loop _ -> "@check_loop_spectrum_sound plant controller claim polynomial evidence" | _ -> "@closed_loop_spectrum_plant plant sized claim polynomial evidence");
-    turned = "@closed_loop_spectrum_dual plant sized claim polynomial evidence" }
+let closed_loop_spectrum loop p proof =
+  { name = "closed_loop_spectrum"; about = about_matrix loop "The characteristic polynomial of";
+    meaning = meaning_of loop "up, in mcexact.kernel.lists, is the monic polynomial of a list.";
+    definitions = controlled loop (("claim", "zrow", row p) :: evidence proof);
+    says = (fun system -> Printf.sprintf "forall (K : fieldType) (h : {rmorphism rat -> K}), char_poly %s = up K claim" (matrix_of loop system "K"));
+    plain = (match loop with
+        | Some _ -> "@check_loop_spectrum_sound plant controller claim polynomial evidence" | None -> "@closed_loop_spectrum_plant plant sized claim polynomial evidence");
+    turned = "@closed_loop_spectrum_subject plant constructions subject sized made claim polynomial evidence" }
 
-let stability subject continuous u v flag proof =
+let stability loop continuous u v flag proof =
   let claim = Printf.sprintf "%s %s %s %s" (bool continuous) (z u) (z v) (bool flag) in
-  { name = "stability"; about = about_matrix subject "Whether the region has all eigenvalues of";
-    meaning = meaning_of subject "within, in mcexact.kernel.program_rule, is the region.";
-    definitions = controlled subject (evidence proof);
+  { name = "stability"; about = about_matrix loop "Whether the region has all eigenvalues of";
+    meaning = meaning_of loop "within, in mcexact.kernel.program_rule, is the region.";
+    definitions = controlled loop (evidence proof);
     says = (fun system -> Printf.sprintf "forall C : numClosedFieldType, %s <-> (forall z, eigenvalue %s z -> within %s %s %s z)"
-        (bool flag) (matrix_of subject system "C") (z u) (z v) (bool continuous));
-    plain = (match subject with
-        | Subject.Loop _ -> Printf.sprintf "@check_loop_stability_sound plant controller %s polynomial evidence" claim
-        | _ -> Printf.sprintf "@stability_plant plant sized %s polynomial evidence" claim);
-    turned = Printf.sprintf "@stability_dual plant sized %s polynomial evidence" claim }
+        (bool flag) (matrix_of loop system "C") (z u) (z v) (bool continuous));
+    plain = (match loop with
+        | Some _ -> Printf.sprintf "@check_loop_stability_sound plant controller %s polynomial evidence" claim
+        | None -> Printf.sprintf "@stability_plant plant sized %s polynomial evidence" claim);
+    turned = Printf.sprintf "@stability_subject plant constructions subject sized made %s polynomial evidence" claim }
 
-let file digest s subject t =
-  let dual = subject = Subject.Dual in
-  let system field = if dual then Printf.sprintf "(dual (system_of %s plant))" field else Printf.sprintf "(system_of %s plant)" field in
+(* Constructions *)
+let construction = function
+  | ToDual -> "ToDual"
+  | ToFeedback g -> record "ToFeedback" [ record "ZGains" [ z g.ga_den; list matrix g.ga_F ] ]
+  | ToLowest g -> record "ToLowest" [ z g ]
+
+let file digest s (subject : Subject.t) t =
+  let changed = subject.Subject.made <> [] in
+  let system field = if changed then Printf.sprintf "(sy_system (subject_of %s plant constructions))" field else Printf.sprintf "(system_of %s plant)" field in
   let define (name, kind, text) = Printf.sprintf "Definition %s : %s := %s." name kind text in
   String.concat "\n"
-    ([ Printf.sprintf "(* %s the %splant %s.\n   The lists have A, B_i and C_i over one denominator.  %s *)" t.about
-         (if dual then "dual of the " else "") digest t.meaning;
+    ([ Printf.sprintf "(* %s %s %s.\n   The lists have A, B_i and C_i over one denominator.  %s%s *)" t.about
+         (if changed then "what constructions make of the plant" else "the plant") digest t.meaning
+         (if changed then "\n   subject_of, in mcexact.kernel.subjects, applies the constructions." else "");
        "From Coq Require Import ZArith.";
        "From mathcomp Require Import all_ssreflect all_algebra.";
        "From mcexact Require Import multichannel completeness.";
-       "From mcexact.kernel Require Import lists systems residues krylov_rule shrunk_rule coprime_rule blocks_rule hessenberg_rule spectrum_rule loop_rule fixed_rule large_rule regions_rule facts reach_rule arcs_rule setpoint_rule program_rule kinds.";
+       "From mcexact.kernel Require Import lists systems residues krylov_rule shrunk_rule coprime_rule blocks_rule hessenberg_rule spectrum_rule loop_rule fixed_rule large_rule regions_rule facts reach_rule arcs_rule setpoint_rule program_rule kinds"
+       ^ (if changed then " subjects." else ".");
        "";
        define ("plant", "zsystem", system_text s) ]
+     @ (if changed then
+          [ define ("constructions", "seq construction", list construction subject.Subject.made);
+            define ("subject", "zsystem", "if zsubject plant constructions is Some s then s else plant") ]
+        else [])
      @ List.map define t.definitions
-     @ [ "Lemma sized : sized_system plant. Proof. by vm_compute. Qed.";
-         Printf.sprintf "Theorem %s : %s." t.name (t.says system);
-         Printf.sprintf "Proof. by apply: (%s); vm_compute. Qed." (if dual then t.turned else t.plain);
+     @ [ "Lemma sized : sized_system plant. Proof. by vm_compute. Qed." ]
+     @ (if changed then [ "Lemma made : zsubject plant constructions = Some subject. Proof. by vm_compute. Qed." ] else [])
+     @ [ Printf.sprintf "Theorem %s : %s." t.name (t.says system);
+         Printf.sprintf "Proof. by apply: (%s); vm_compute. Qed." (if changed then t.turned else t.plain);
          "" ])

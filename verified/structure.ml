@@ -82,7 +82,7 @@ let controllability (s : Kernel.zsystem) known (claim : Kernel.zreach) value =
   let keys = match value with Json.Object l when List.mem_assoc "blocks" l -> [ "blocks"; "measured" ] | _ -> [ "modulus" ] in
   let parts = Json.fields "witness" (keys @ [ "annihilator"; "pivots" ]) value in
   let rows, pivots = match List.rev parts with pivots :: rows :: _ -> (rows, Json.positions "witness.pivots" n pivots) | _ -> assert false in
-  let den, w = matrix "witness.annihilator" (List.length pivots) n rows in
+  let den, w = Json.matrix "witness.annihilator" (List.length pivots) n rows in
   if List.length pivots <> n - claim.Kernel.r_dim then invalid "witness.pivots" "expected another number of them";
   let z = Kernel.zpick pivots (Kernel.zmm w s.Kernel.zA) in
   let f, spectrum = Modular.spectrum (Z.mul den s.Kernel.zD) z in
@@ -124,7 +124,7 @@ let read_zero (s : Kernel.zsystem) known place value =
   match Json.fields place [ "from"; "X"; "pivots" ] value with
   | [ sources; x; pivots ] ->
     let sources = Json.names place known sources and pivots = Json.positions place s.Kernel.zn pivots in
-    let den, x = matrix place s.Kernel.zn (List.length pivots) x in
+    let den, x = Json.matrix place s.Kernel.zn (List.length pivots) x in
     { Kernel.z_from = mask (List.length known) sources; z_den = den; z_X = x; z_pivots = pivots }
   | _ -> assert false
 
@@ -259,7 +259,7 @@ let setpoint (s : Kernel.zsystem) discrete (claim : Kernel.zsetpoint) value =
     if r > rows then invalid "claim.rank" "not reached modulo l";
     let pivots = Json.positions "witness.pivots" rows pivots in
     if List.length pivots <> rows - r then invalid "witness.pivots" "expected another number of them";
-    let den, w = matrix "witness.left" (rows - r) rows left in
+    let den, w = Json.matrix "witness.left" (rows - r) rows left in
     let w1, w2 = split s w in
     (* Which part of a row a position is in. *)
     let rec port at k = function
@@ -284,8 +284,8 @@ let setpoint (s : Kernel.zsystem) discrete (claim : Kernel.zsetpoint) value =
 
 (* The matrix of the plant or of the loop, over one denominator. *)
 let loop_matrix (s : Kernel.zsystem) = function
-  | Subject.Loop c -> (Kernel.zclosed_den s c.Controller.listed, Kernel.zclosed s c.Controller.listed)
-  | _ -> (s.Kernel.zD, s.Kernel.zA)
+  | Some c -> (Kernel.zclosed_den s c.Controller.listed, Kernel.zclosed s c.Controller.listed)
+  | None -> (s.Kernel.zD, s.Kernel.zA)
 
 (* The polynomial p of a claim as that of the matrix, times the denominators of its rows, by the moduli of the witness. *)
 let spectrum d rows p value =

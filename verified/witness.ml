@@ -2,23 +2,12 @@
    claim.  The form is checked all the same, so that what the checker in Python calls MALFORMED is so here. *)
 open Refused
 
-let integer_rows place nrows ncols value =
-  List.map (fun row -> List.map (Json.integer place) (Json.items ~length:ncols place row)) (Json.items ~length:nrows place value)
-
-let denominator place value = Json.integer ~least:1 place value
-
-(* Integers over one denominator. *)
-let matrix place nrows ncols value =
-  match Json.fields place [ "denominator"; "entries" ] value with
-  | [ d; entries ] -> (denominator place d, integer_rows place nrows ncols entries)
-  | _ -> assert false
-
 let layers place nrows ncols degree value =
   match Json.fields place [ "denominator"; "coefficients" ] value with
   | [ d; l ] ->
-    let l = List.map (integer_rows place nrows ncols) (Json.items place l) in
+    let l = List.map (Json.integer_rows place nrows ncols) (Json.items place l) in
     if l = [] || List.length l > degree then malformed place "expected from 1 matrix to the degree of p";
-    (denominator place d, l)
+    (Json.denominator place d, l)
   | _ -> assert false
 
 let modulus place value =
@@ -49,7 +38,7 @@ let gains place l (channels : Kernel.zchannel list) acting value =
   let given = Json.items ~length:(List.length (List.filter Fun.id acting)) place value in
   let rec go channels acting given = match channels, acting, given with
     | ch :: channels, true :: acting, g :: given ->
-      residues_over l (matrix place ch.Kernel.zp ch.Kernel.zq g) :: go channels acting given
+      residues_over l (Json.matrix place ch.Kernel.zp ch.Kernel.zq g) :: go channels acting given
     | _ :: channels, false :: acting, given -> [] :: go channels acting given
     | _ -> [] in
   go channels acting given
@@ -317,7 +306,7 @@ let fixed_spectrum (s : Kernel.zsystem) known (claim : Kernel.zclaim) value =
       end else begin
         let rho = List.fold_left (fun r f -> max r (n - f.Kernel.f_rank)) 0 factors in
         let b0, c0 = match Json.fields "witness.completion" [ "B0"; "C0" ] completion with
-          | [ b; c ] -> (residues_over ell (matrix "witness.completion.B0" n rho b), residues_over ell (matrix "witness.completion.C0" rho n c))
+          | [ b; c ] -> (residues_over ell (Json.matrix "witness.completion.B0" n rho b), residues_over ell (Json.matrix "witness.completion.C0" rho n c))
           | _ -> assert false in
         let w, chi = with_polynomial s ell gains in
         let divided f polynomial k =

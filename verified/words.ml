@@ -20,17 +20,19 @@ let polynomial p =
 (* A digest, and what it is of where this is short. *)
 let with_digest text = Printf.sprintf "SHA-256 %s%s" (Sha256.digest text) (if String.length text <= 80 then " = " ^ text else "")
 
-(* For the system that the claim is about, with its sizes. *)
-let statement (plant : Plant.t) subject sentence =
-  let nominal = if plant.Plant.uncertain then " at its nominal values" else "" and n = plant.Plant.states.Plant.nrows in
-  let known = braced (List.map json plant.Plant.names) in
-  let before, states, ports = match subject with
-    | Subject.Plain -> ("", n, "channels " ^ known)
-    | Subject.Dual -> ("the dual of: ", n, "channels " ^ known)
-    | Subject.Loop c ->
-      (Printf.sprintf "the closed loop with the controller with %s of: " (with_digest c.Controller.text), n + c.Controller.added,
-       Printf.sprintf "%d of the controlled system and %d added by the controller of the channels %s" n c.Controller.added known) in
-  Printf.sprintf "For %sthe plant %s%s (%d state%s, %s, %s time): %s" before plant.Plant.digest nominal states (if states = 1 then "" else "s") ports plant.Plant.time sentence
+let counted number noun = Printf.sprintf "%d %s%s" number noun (if number = 1 then "" else "s")
+
+(* The plant, and systems named before or behind what they are made from: what begins with a construction stands in
+   parentheses behind which another one is named. *)
+let plant digest uncertain = Printf.sprintf "the plant %s%s" digest (if uncertain then " at its nominal values" else "")
+let prefixed words before = Printf.sprintf "%s of: %s" words before
+let suffixed words before =
+  let alone = String.starts_with ~prefix:"the plant" before || String.starts_with ~prefix:"(" before in
+  Printf.sprintf "%s %s" (if alone then before else "(" ^ before ^ ")") words
+
+(* About a system with so many states. *)
+let statement system states ports time sentence =
+  Printf.sprintf "For %s (%s, %s, %s time): %s" system (counted states "state") ports time sentence
 
 let fixed = "fixed under linear time-invariant decentralized control"
 let pencil = "[xI - A, B; C, 0]"

@@ -2,7 +2,7 @@
    here: Coq's extraction, and that the operations named below are what they stand for. *)
 From Coq Require Import ZArith Extraction ExtrOcamlBasic ExtrOcamlNatInt.
 From mathcomp Require Import all_ssreflect.
-From mcexact.kernel Require Import lists systems packed shrunk_rule hessenberg_rule loop_rule fixed_rule large_rule facts reach_rule arcs_rule setpoint_rule program_rule kinds.
+From mcexact.kernel Require Import lists systems packed shrunk_rule hessenberg_rule loop_rule fixed_rule large_rule facts reach_rule arcs_rule setpoint_rule program_rule kinds subjects.
 Extract Inductive positive => "Zarith_integers.t"
   [ "(fun p -> Zarith_integers.succ (Zarith_integers.shift_left p 1))" "(fun p -> Zarith_integers.shift_left p 1)" "Zarith_integers.one" ]
   "(fun _ _ _ _ -> assert false)".
@@ -25,5 +25,5 @@ Extract Constant Z.land => "Zarith_integers.logand".
 Extract Constant Z.log2 => "Zarith_integers.logarithm".
 Extract Constant Z.modulo => "Zarith_integers.modulo".
 Set Extraction Output Directory ".".
-Extraction "kernel.ml" check_whole loop_residues completed zchar zpart zdual zpmul zmm check_controllability check_graph check_complete check_setpoint zpick ztogether zlower
+Extraction "kernel.ml" check_whole loop_residues completed zchar zpart zdual zmade zpmul zmm check_controllability check_graph check_complete check_setpoint zpick ztogether zlower
   check_open_spectrum check_loop_spectrum check_open_stability check_loop_stability zclosed zclosed_den zsquare zcolumn_sums zexcess.

@@ -1,7 +1,7 @@
 (* The kinds other than `fixed_spectrum`, for which facts are not enough: `controllability` (of the dual system,
    observability), `transfer_graph`, `completeness`, `setpoint`, and without a controller `closed_loop_spectrum` and
    `stability`, which program_rule.v has with one.  Each check proves its claim of every system that a
-   list represents, and so of the plant of the list, and of its dual where the list is that of the dual. *)
+   list represents, and so of the plant of the list, and of the subjects of subjects.v. *)
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra all_field.
 From mcexact Require Import multichannel fixed_bound transfer_graph completeness.
@@ -108,43 +108,23 @@ exact: (closed_mask_sound re cl un).
 Qed.
 End Complete.
 
-(* The plant of a list, and its dual. *)
+(* The plant of a list. *)
 Section Plant.
 Variable s : zsystem.
 Hypothesis sz : sized_system s.
 Let plain (K : fieldType) := system_of_represents K sz.
-Let turned (K : fieldType) := dual_represents (plain K).
 Corollary controllability_plant c a ev : check_controllability s c a ev -> forall (K : fieldType) (h : {rmorphism rat -> K}), reach_holds (system_of K s) c.
-Proof. by move=> ok K h; apply: (check_controllability_sound ok h). Qed.
-Corollary controllability_dual c a ev : check_controllability (zdual s) c a ev ->
-  forall (K : fieldType) (h : {rmorphism rat -> K}), reach_holds (dual (system_of K s)) c.
 Proof. by move=> ok K h; apply: (check_controllability_sound ok h). Qed.
 Corollary transfer_graph_plant c w : check_graph s c w -> forall (K : fieldType) (h : {rmorphism rat -> K}), graph_holds (system_of K s) c.
 Proof. by move=> ok K h; apply: (check_graph_sound ok h). Qed.
-Corollary transfer_graph_dual c w : check_graph (zdual s) c w -> forall (K : fieldType) (h : {rmorphism rat -> K}), graph_holds (dual (system_of K s)) c.
-Proof. by move=> ok K h; apply: (check_graph_sound ok h). Qed.
 Corollary completeness_plant ev b : check_complete s ev = Some b -> complete (system_of [fieldType of rat] s) <-> b.
 Proof. exact: check_complete_sound (plain _) _ _. Qed.
-Corollary completeness_dual ev b : check_complete (zdual s) ev = Some b -> complete (dual (system_of [fieldType of rat] s)) <-> b.
-Proof. exact: check_complete_sound (turned _) _ _. Qed.
 Corollary setpoint_plant d c w : check_setpoint s d c w -> forall (K : fieldType) (h : {rmorphism rat -> K}), setpoint_holds d (system_of K s) c.
-Proof. by move=> ok K h; apply: (check_setpoint_sound ok h). Qed.
-Corollary setpoint_dual d c w : check_setpoint (zdual s) d c w -> forall (K : fieldType) (h : {rmorphism rat -> K}), setpoint_holds d (dual (system_of K s)) c.
 Proof. by move=> ok K h; apply: (check_setpoint_sound ok h). Qed.
 Corollary closed_loop_spectrum_plant f g w : check_open_spectrum s f g w ->
   forall (K : fieldType) (h : {rmorphism rat -> K}), char_poly (mcA (system_of K s)) = up K f.
 Proof. by move=> ok K h; apply: (check_open_spectrum_sound ok h). Qed.
-Corollary closed_loop_spectrum_dual f g w : check_open_spectrum (zdual s) f g w ->
-  forall (K : fieldType) (h : {rmorphism rat -> K}), char_poly (mcA (dual (system_of K s))) = up K f.
-Proof. by move=> ok K h; apply: (check_open_spectrum_sound ok h). Qed.
 Corollary stability_plant continuous u v flag f w : check_open_stability s continuous u v flag f w ->
   forall C : numClosedFieldType, flag <-> (forall z, eigenvalue (mcA (system_of C s)) z -> within u v continuous z).
 Proof. by move=> ok C; apply: (check_open_stability_sound ok). Qed.
-Corollary stability_dual continuous u v flag f w : check_open_stability (zdual s) continuous u v flag f w ->
-  forall C : numClosedFieldType, flag <-> (forall z, eigenvalue (mcA (dual (system_of C s))) z -> within u v continuous z).
-Proof. by move=> ok C; apply: (check_open_stability_sound ok). Qed.
-Corollary fixed_spectrum_dual rs g c : check_whole (zdual s) rs g = Some c ->
-  (forall (K : fieldType) (h : {rmorphism rat -> K}), claim_holds (dual (system_of K s)) c) /\
-  (forall C : numClosedFieldType, regions_hold (dual (system_of C s)) c g).
-Proof. by case/check_whole_sound=> h1 h2; split=> [K h|C]; [apply: (h1 K h) | apply: h2]. Qed.
 End Plant.

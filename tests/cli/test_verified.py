@@ -20,6 +20,7 @@ from mcexact.analysis.stability import certify_stability, open_loop_spectrum
 from mcexact.answer import protocol
 from mcexact.checker.kinds import check_document
 from mcexact.cli import verified
+from mcexact.derived.constructions import dual, feedback
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
@@ -292,6 +293,59 @@ def test_both_checkers_agree_about_every_published_plant(name: str, tmp_path: Pa
     assert [answer.confirmed for answer in found] == [known] * len(paths)
 
 
+def under_feedback(plant: mcexact.MultiChannelSystem) -> mcexact.MultiChannelSystem:
+    """The plant with gains whose entries have different denominators."""
+    gains = [
+        Matrix.from_rows([[f"{i + 1}/{i + 2}"] * plant.q(i)] * plant.p(i)) for i in range(plant.m)
+    ]
+    return feedback(plant, gains)
+
+
+SUBJECTS: dict[str, tuple[Callable[..., Any], Callable[..., Any], Callable[..., Any]]] = {
+    "feedback": (
+        under_feedback,
+        open_loop_spectrum,
+        lambda step: step["gains"][0]["entries"][0].__setitem__(0, 5),
+    ),
+}
+"""For each construction a system, a question with another answer after an edit, and the edit."""
+
+
+def answered(path: Path, document: Document) -> tuple[Any, Any]:
+    """The verdict of the checker, and the answer of the program."""
+    path.write_text(json.dumps(document), "ascii")
+    verdict = check_document(path.read_bytes())
+    (answer,) = verified.confirmations([str(path)], [verdict.statement])
+    return verdict, answer
+
+
+@pytest.mark.skipif(not BUILT, reason="needs the program: make verified")
+@pytest.mark.parametrize("name", SUBJECTS)
+def test_both_checkers_agree_about_what_constructions_make(name: str, tmp_path: Path) -> None:
+    make, _, _ = SUBJECTS[name]
+    made = make(gallery.load(PLANT))
+    for system in (made, dual(made), under_feedback(dual(made))):
+        for question in (*QUESTIONS, open_loop_spectrum):
+            document = json.loads(protocol.encode(question(system)))
+            assert document["subject"][0]["construction"] == name
+            verdict, answer = answered(tmp_path / "certificate.json", document)
+            assert verdict.verdict == "VALID" and answer.confirmed, (question, answer)
+
+
+@pytest.mark.skipif(not BUILT, reason="needs the program: make verified")
+@pytest.mark.parametrize("name", SUBJECTS)
+def test_what_is_true_of_one_subject_is_not_confirmed_of_another(name: str, tmp_path: Path) -> None:
+    make, question, edit = SUBJECTS[name]
+    document = json.loads(protocol.encode(question(make(gallery.load(PLANT)))))
+    assert answered(tmp_path / "true.json", document)[1].confirmed
+    edit(document["subject"][0])
+    verdict, answer = answered(tmp_path / "false.json", document)
+    assert (verdict.verdict, answer.verdict) == ("INVALID", "INVALID")
+    document["subject"][0]["more"] = 1
+    verdict, answer = answered(tmp_path / "malformed.json", document)
+    assert (verdict.verdict, answer.verdict) == ("MALFORMED", "MALFORMED")
+
+
 @pytest.mark.skipif(not BUILT, reason="needs the program: make verified")
 @pytest.mark.parametrize(
     ("question", "explained", "subject"),
@@ -459,7 +513,7 @@ def proved(file: Path) -> bool:
 
 @pytest.mark.slow
 @pytest.mark.skipif(
-    not BUILT or not (PROOFS / "kernel" / "kinds.vo").exists() or shutil.which("coqc") is None,
+    not BUILT or not (PROOFS / "kernel" / "subjects.vo").exists() or shutil.which("coqc") is None,
     reason="needs the compiled proofs: make verified",
 )
 @pytest.mark.parametrize("question", (*QUESTIONS, *OF_MATRICES), ids=lambda each: each.__name__)
@@ -475,6 +529,21 @@ def test_coq_proves_the_theorem_about_a_published_plant(
     other = re.sub(r"Definition plant.* := \(ZSystem \d+ (\d+)", _doubled, text)
     theorem.write_text(other, "ascii")
     assert other != text and not proved(theorem)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(
+    not BUILT or not (PROOFS / "kernel" / "subjects.vo").exists() or shutil.which("coqc") is None,
+    reason="needs the compiled proofs: make verified",
+)
+@pytest.mark.parametrize("name", SUBJECTS)
+def test_coq_proves_the_theorem_about_what_a_construction_makes(name: str, tmp_path: Path) -> None:
+    certificate, theorem = tmp_path / "certificate.json", tmp_path / "theorem.v"
+    system = SUBJECTS[name][0](gallery.load(PLANT))
+    for question in (*QUESTIONS, open_loop_spectrum):
+        certificate.write_text(protocol.encode(question(system)), "ascii")
+        assert call("check", "--rocq", str(theorem), str(certificate))[0] == 0
+        assert proved(theorem)
 
 
 def _doubled(match: re.Match[str]) -> str:

@@ -1,10 +1,11 @@
 """Both checkers on mutants and forgeries of their common kinds: what only one of them accepts.
 
-Every try of the attack campaign for these kinds, about a plant, its dual or a loop, is judged by
-the checker in Python and by the program mcexact-verified (`make verified`).  Counted are pairs of
-verdicts of each kind; where both accept, the statements and their digests have to be equal.
-Nothing that is INVALID or MALFORMED may be CONFIRMED.  Every other difference is listed with its
-reason, but for certificates that the program does not read.
+Every try of the attack campaign for these kinds, about a plant, a loop, or a subject whose
+constructions are in the kernel, is judged by the checker in Python and by the program
+mcexact-verified (`make verified`).  Counted are pairs of verdicts of each kind; where both accept,
+the statements and their digests have to be equal.  Nothing that is INVALID or MALFORMED may be
+CONFIRMED.  Every other difference is listed with its reason, but for certificates that the program
+does not read.
 
 A run keeps what it has counted after every few batches: the same command again resumes it, with the
 same program.
@@ -31,17 +32,17 @@ KINDS = (
     *("completeness", "controllability", "fixed_spectrum", "setpoint", "transfer_graph"),
     *LOOPS,
 )
+CONSTRUCTIONS = {"dual", "feedback"}
+"""The constructions that the program applies."""
 AT_ONCE = 256
 """Files, or some more, that the program is given in one call."""
 
 
 def documents(number: int) -> Iterator[tuple[str, bytes]]:
-    """The original of a batch about a plant, its dual or a loop, and the texts of its tries."""
+    """The original of a batch that the program reads, and the texts of its tries."""
     batch = drawn_batch(number)
-    if [step["construction"] for step in batch.original["subject"]] not in (
-        *([], ["dual"]),
-        *([["closed_loop"]] if batch.kind in LOOPS else []),
-    ):
+    names = [step["construction"] for step in batch.original["subject"]]
+    if not (CONSTRUCTIONS.issuperset(names) or (names == ["closed_loop"] and batch.kind in LOOPS)):
         return
     yield batch.kind, json.dumps(batch.original).encode("ascii")
     for each in tries(number, batch):
