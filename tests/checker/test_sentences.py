@@ -57,7 +57,7 @@ from tests.checker.saturation_plants import CUT as CUT_OFF
 from tests.checker.saturation_plants import NEAR
 from tests.checker.test_complementary_subsystem import TWICE
 from tests.checker.test_fixed_spectrum import UNEVEN
-from tests.checker.test_sentences_design import OF_DESIGNS
+from tests.checker.test_sentences_design import OF_DESIGNS, seen_and_driven_apart
 from tests.checker.test_shared_dimensions import FREE, STABLE
 from tests.checker.test_single_channel_gains import BLIND, CUT
 from tests.wording import says
@@ -202,11 +202,6 @@ def with_hidden_mode(mode: int) -> MultiChannelSystem:
         [[*B.tolist(), [1]] for B in PAPER.B],
         [[[*row, 0] for row in C.tolist()] for C in PAPER.C],
     )
-
-
-def seen_and_driven_apart(chain: dict[str, list[str]]) -> MultiChannelSystem:
-    """A mode that agent 1 sees and agent 3 drives, over some links."""
-    return MultiChannelSystem([[1]], [[[0]], [[0]], [[1]]], [[[1]], [[0]], [[0]]], neighbors=chain)
 
 
 def test_each_rule_is_implied_by_some_certificates_and_not_by_all(tmp_path: Path) -> None:

@@ -14,6 +14,8 @@ from mcexact.answer.protocol import document
 from mcexact.checker.kinds import Verdict
 from mcexact.checker.sentences import RULES
 from mcexact.derived.constructions import (
+    augmented_outputs,
+    closure,
     error_system,
     extended_system,
     internal_model,
@@ -188,7 +190,19 @@ def of(system: MultiChannelSystem) -> dict[str, Document]:
     }
 
 
-REFUSED, ALLOWED = of(LOST), of(FOUND)
+def seen_and_driven_apart(chain: dict[str, list[str]]) -> MultiChannelSystem:
+    """A mode that agent 1 sees and agent 3 drives, over some links."""
+    return MultiChannelSystem([[1]], [[[0]], [[0]], [[1]]], [[[1]], [[0]], [[0]]], neighbors=chain)
+
+
+def over_links(links: dict[str, list[str]]) -> dict[str, Document]:
+    """The certificate about all that agents can share over these links."""
+    paths = closure(seen_and_driven_apart(links))
+    return {"over-links": document(fixed_spectrum(augmented_outputs(paths)))}
+
+
+REFUSED = of(LOST) | over_links({"1": ["2"], "2": ["3"]})
+ALLOWED = of(FOUND) | over_links({"2": ["1"], "3": ["2"]})
 WRONG = {
     "refused-uncontrollable": "observe fixed",
     "refused-unobservable": "control complete",
@@ -201,6 +215,7 @@ WRONG = {
     "refused-errors-fixed": "fixed tracked",
     "refused-fixed": "errors shared",
     "refused-fixed-shared": "fixed errors",
+    "refused-over-links": "fixed shared errors",
     "refused-integrators-fixed": "too-little shared fixed",
 }
 """Certificates that say such a thing of something else, or too little."""
@@ -213,6 +228,7 @@ PLACES = {
     "refused-errors-fixed": "errors",
     "refused-fixed": "fixed",
     "refused-fixed-shared": "shared",
+    "refused-over-links": "over-links",
     "refused-integrators-fixed": "tracked",
     "refused-models-control": "followed-control",
     "refused-models-observe": "followed-observe",
@@ -235,6 +251,7 @@ IMPLIED: list[tuple[str, list[Document]]] = [
     (f"{LOOPS} {OBSERVERS} design-region", [OBSERVER]),
     ("design-region", [STABLE]),
     ("design-assigned", [LOOP]),
+    ("design-source-components", [ALLOWED["over-links"]]),
     ("design-kept", [KEPT_LOOP, document(fixed_spectrum(KEPT))]),
     ("design-steady-state", [TRACKS]),
     ("design-steady-state", [STEPS]),
@@ -262,7 +279,7 @@ DENIED: list[tuple[str, list[Document]]] = [
     (LOOPS, [SLOWER]),
     (LOOPS, [GROWS]),
     (f"{OBSERVERS} certify-inside certify-decided certify-outside refused-outside", [LOOP]),
-    ("design-assigned", [SPECTRUM]),
+    ("design-assigned design-source-components", [SPECTRUM]),
     *(("design-region", [loop]) for loop in (LOOP, UNBOUNDED, SLOWER)),
     ("design-kept", [LOOP, SPECTRUM]),
     ("design-kept", [document(fixed_spectrum(KEPT))]),
