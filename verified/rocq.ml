@@ -164,6 +164,10 @@ let stability loop continuous u v flag proof =
 let construction = function
   | ToDual -> "ToDual"
   | ToFeedback g -> record "ToFeedback" [ record "ZGains" [ z g.ga_den; list matrix g.ga_F ] ]
+  | ToNeighbors sets -> record "ToNeighbors" [ list (list bool) sets ]
+  | ToMerged parts -> record "ToMerged" [ list (list bool) parts ]
+  | ToRestricted chosen -> record "ToRestricted" [ list bool chosen ]
+  | ToFullOutput k -> record "ToFullOutput" [ nat k ]
   | ToLowest g -> record "ToLowest" [ z g ]
 
 let file digest s (subject : Subject.t) t =

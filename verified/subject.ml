@@ -3,8 +3,8 @@
    `made` are the constructions as those of the kernel, and `system` is what they make of the plant as a list. *)
 open Refused
 
-type t = { made : Kernel.construction list; system : Kernel.zsystem; known : string list; words : string; ports : string;
-           loop : Controller.t option }
+type t = { made : Kernel.construction list; system : Kernel.zsystem; known : string list; heard : int list list option; words : string;
+           ports : string; loop : Controller.t option }
 
 (* The system after one more construction, over the least denominator. *)
 let after subject c words =
@@ -25,10 +25,43 @@ let feedback place value subject =
   let words = Printf.sprintf "under the decentralized gains F with %s" (Words.with_digest text) in
   after subject (Kernel.ToFeedback { Kernel.ga_den = e; ga_F = List.map (Plant.times e) rows }) (Words.suffixed words subject.words)
 
+let mask subject places = List.mapi (fun i _ -> List.mem i places) subject.known
+
+let augmented_outputs place subject =
+  match subject.heard with
+  | None -> invalid place "the system has no neighbor graph"
+  | Some sets ->
+    let sets = List.mapi (fun i l -> mask subject (i :: l)) sets in
+    after subject (Kernel.ToNeighbors sets) (Words.suffixed "with the outputs of neighbors measured by each agent" subject.words)
+
+let full_output place value subject =
+  let k = match Json.names place subject.known (Json.List [ value ]) with [ k ] -> k | _ -> assert false in
+  let words = Printf.sprintf "with the whole state measured by channel %s" (Words.json (List.nth subject.known k)) in
+  after subject (Kernel.ToFullOutput k) (Words.suffixed words subject.words)
+
+(* Parts of which every channel is in exactly one, by their first members. *)
+let merged place value subject =
+  let parts = List.map (Json.names place subject.known) (Json.items place value) in
+  if List.mem [] parts || parts <> List.sort compare parts then malformed place "expected parts that are not empty, by their first members";
+  let once = List.sort compare (List.concat parts) = List.mapi (fun i _ -> i) subject.known in
+  if parts = [] || not once then invalid place "expected every channel in exactly one part, and a part";
+  let known = List.map (fun part -> String.concat "+" (List.map (List.nth subject.known) part)) parts in
+  if List.length (List.sort_uniq compare known) <> List.length known then invalid place "two channels would have the same name";
+  let words = "with its channels merged into " ^ String.concat ", " (List.map (Words.channel_set subject.known) parts) in
+  let made = after subject (Kernel.ToMerged (List.map (mask subject) parts)) (Words.suffixed words subject.words) in
+  { made with known; heard = None }
+
+let restricted place value subject =
+  let chosen = Json.names place subject.known value in
+  if chosen = [] then invalid place "expected at least one channel";
+  let words = Printf.sprintf "with the channels %s alone" (Words.channel_set subject.known chosen) in
+  let made = after subject (Kernel.ToRestricted (mask subject chosen)) (Words.suffixed words subject.words) in
+  { made with known = List.map (List.nth subject.known) chosen; heard = None }
+
 (* Other constructions are not verified here, nor are loops of what constructions make. *)
 let read (plant : Plant.t) value =
   let known = plant.Plant.names and system = Plant.listed plant in
-  let start = { made = []; system; known; words = Words.plant plant.Plant.digest plant.Plant.uncertain; ports = ""; loop = None } in
+  let start = { made = []; system; known; heard = plant.Plant.heard; words = Words.plant plant.Plant.digest plant.Plant.uncertain; ports = ""; loop = None } in
   let step subject (k, value) =
     let place = Printf.sprintf "subject[%d]" k in
     let parameters keys = List.tl (Json.fields place ("construction" :: keys) value) in
@@ -37,11 +70,15 @@ let read (plant : Plant.t) value =
     | Some (Json.String _), Some _ -> incomplete place "no construction after a closed loop is verified here"
     | Some (Json.String "dual"), None ->
       ignore (parameters []);
-      after subject Kernel.ToDual (Words.prefixed "the dual" subject.words)
+      { (after subject Kernel.ToDual (Words.prefixed "the dual" subject.words)) with heard = None }
     | Some (Json.String "feedback"), None ->
-      (match parameters [ "gains" ] with [ gains ] -> feedback place gains subject | _ -> assert false)
+      feedback place (List.hd (parameters [ "gains" ])) subject
+    | Some (Json.String "augmented_outputs"), None -> ignore (parameters []); augmented_outputs place subject
+    | Some (Json.String "full_output"), None -> full_output place (List.hd (parameters [ "channel" ])) subject
+    | Some (Json.String "merged"), None -> merged place (List.hd (parameters [ "parts" ])) subject
+    | Some (Json.String "restricted"), None -> restricted place (List.hd (parameters [ "channels" ])) subject
     | Some (Json.String "closed_loop"), None when k = 0 ->
-      let c = match parameters [ "controller" ] with [ value ] -> Controller.read plant place value | _ -> assert false in
+      let c = Controller.read plant place (List.hd (parameters [ "controller" ])) in
       let n = system.Kernel.zn and channels = Words.channel_set known (List.mapi (fun i _ -> i) known) in
       let ports = Printf.sprintf "%d of the controlled system and %d added by the controller of the channels %s" n c.Controller.added channels in
       let words = "the closed loop with the controller with " ^ Words.with_digest c.Controller.text in

@@ -91,10 +91,10 @@ by rewrite (take_nth 0%N il) sumn_rcons (IH (ltnW il)) big_ord_recr.
 Qed.
 Lemma sumn_ord (l : seq nat) m (k : 'I_m -> nat) : size l = m -> (forall i : 'I_m, nth 0%N l i = k i) -> sumn l = (\sum_i k i)%N.
 Proof. by move=> sl e; rewrite -[l]take_size sumn_take // sl; apply: eq_bigr. Qed.
-Lemma mx_flatten m (k : 'I_m -> nat) c (Ms : seq zmat) : size Ms = m -> (forall i : 'I_m, size (nth [::] Ms i) = k i) ->
-  mx (\sum_i k i) c (flatten Ms) = \mxcol_i mx (k i) c (nth [::] Ms i).
+Lemma nth_flatten_sig (X : Type) (x : X) m (k : 'I_m -> nat) (Ms : seq (seq X)) (r : 'I_(\sum_i k i)) : size Ms = m ->
+  (forall i : 'I_m, size (nth [::] Ms i) = k i) -> nth x (flatten Ms) r = nth x (nth [::] Ms (tagnat.sig1 r)) (tagnat.sig2 r).
 Proof.
-move=> sm sk; apply/matrixP=> r j; rewrite !mxE; set i := tagnat.sig1 r; set t := tagnat.sig2 r; congr (phi _ (nth _ _ _)).
+move=> sm sk; set i := tagnat.sig1 r; set t := tagnat.sig2 r.
 have sh (l : 'I_m) : nth 0%N (seq.shape Ms) l = k l by rewrite (nth_map [::]) ?sk // sm.
 have -> : r = flatten_index (seq.shape Ms) i t :> nat.
   have <- : (\sum_(l < m | l < i) k l + t)%N = r by rewrite -tagnat.RankEsum tagnat.sig2K.
@@ -104,6 +104,9 @@ have -> : r = flatten_index (seq.shape Ms) i t :> nat.
 have ti : (t < nth 0 (seq.shape Ms) i)%N by rewrite sh.
 by rewrite nth_flatten flatten_indexKl // flatten_indexKr.
 Qed.
+Lemma mx_flatten m (k : 'I_m -> nat) c (Ms : seq zmat) : size Ms = m -> (forall i : 'I_m, size (nth [::] Ms i) = k i) ->
+  mx (\sum_i k i) c (flatten Ms) = \mxcol_i mx (k i) c (nth [::] Ms i).
+Proof. by move=> sm sk; apply/matrixP=> r j; rewrite !mxE (nth_flatten_sig _ _ sm sk). Qed.
 End Stacks.
 
 (* The loop of the plant of a list with the controller of a list. *)

@@ -6,7 +6,7 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import multichannel completeness feedback.
-From mcexact.kernel Require Import lists systems fixed_rule regions_rule facts reach_rule arcs_rule setpoint_rule program_rule kinds.
+From mcexact.kernel Require Import lists systems fixed_rule regions_rule facts reach_rule arcs_rule setpoint_rule program_rule stacked kinds.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -116,16 +116,31 @@ End Constructions.
 (* A system with its sizes. *)
 Record some_system (K : fieldType) := SomeSystem
   { sy_n : nat; sy_m : nat; sy_p : 'I_sy_m -> nat; sy_q : 'I_sy_m -> nat; sy_system : multichannel K sy_n sy_p sy_q }.
-Inductive construction := ToDual | ToFeedback of zgains | ToLowest of Z.
+Inductive construction :=
+ | ToDual
+ | ToFeedback of zgains
+ | ToNeighbors of seq (seq bool)  (* for each channel, who is heard *)
+ | ToMerged of seq (seq bool)     (* for each new channel, which are merged *)
+ | ToRestricted of seq bool
+ | ToFullOutput of nat
+ | ToLowest of Z.                 (* the same system over a smaller denominator *)
 Definition made (K : fieldType) (X : some_system K) (c : construction) : some_system K :=
   match c with
   | ToDual => SomeSystem (dual (sy_system X))
   | ToFeedback g => SomeSystem (feedback (sy_system X) (gains_of K g (@sy_p K X) (@sy_q K X)))
+  | ToNeighbors N => SomeSystem (neighbor_outputs (sy_system X) (sets_of (sy_m X) N))
+  | ToMerged Ts => SomeSystem (merged (sy_system X) (fun k : 'I_(size Ts) => sets_of (sy_m X) Ts k))
+  | ToRestricted T => SomeSystem (restricted (sy_system X) (masked T (sy_m X)))
+  | ToFullOutput k => SomeSystem (full_output (sy_system X) k)
   | ToLowest _ => X end.
 Definition zmade (s : zsystem) (c : construction) : option zsystem :=
   match c with
   | ToDual => Some (zdual s)
   | ToFeedback g => if Z.ltb 0 (ga_den g) then Some (zfeedback s g) else None
+  | ToNeighbors N => if masks s N && (size N == size (zchannels s)) then Some (zneighbors s N) else None
+  | ToMerged Ts => if masks s Ts then Some (zmerged s Ts) else None
+  | ToRestricted T => if size T == size (zchannels s) then Some (zrestricted s T) else None
+  | ToFullOutput k => Some (zfull_output s k)
   | ToLowest g => if lowerable g s then Some (zlowered g s) else None end.
 Definition subject_of (K : fieldType) (s : zsystem) (cs : seq construction) : some_system K :=
   foldl (@made K) (SomeSystem (system_of K s)) cs.
@@ -135,9 +150,13 @@ Fixpoint zsubject (s : zsystem) (cs : seq construction) : option zsystem :=
 Theorem made_represents (K : fieldType) (h : {rmorphism rat -> K}) s c s' (X : some_system K) :
   zmade s c = Some s' -> represents s (sy_system X) -> represents s' (sy_system (made X c)).
 Proof.
-move=> + re; case: c => [|g|g] /=.
+move=> + re; case: c => [|g|N|Ts|T|k|g] /=.
 - by case=> <-; apply: dual_represents.
 - by case: Z.ltb_spec => // e0 [<-]; apply: (feedback_represents h re e0).
+- by case: ifP => // /andP[ok /eqP sN] [<-]; apply: (neighbors_represents re ok sN).
+- by case: ifP => // ok [<-]; apply: (merged_represents re ok).
+- by case: eqP => // sT [<-]; apply: (restricted_represents re sT).
+- by case=> <-; apply: (full_output_represents re h k).
 by case: ifP => // ok [<-]; apply: (lowered_represents h re ok).
 Qed.
 Theorem subject_represents (K : fieldType) (h : {rmorphism rat -> K}) s cs s' :

@@ -32,7 +32,7 @@ KINDS = (
     *("completeness", "controllability", "fixed_spectrum", "setpoint", "transfer_graph"),
     *LOOPS,
 )
-CONSTRUCTIONS = {"dual", "feedback"}
+CONSTRUCTIONS = {"augmented_outputs", "dual", "feedback", "full_output", "merged", "restricted"}
 """The constructions that the program applies."""
 AT_ONCE = 256
 """Files, or some more, that the program is given in one call."""
