@@ -168,6 +168,7 @@ let construction = function
   | ToMerged parts -> record "ToMerged" [ list (list bool) parts ]
   | ToRestricted chosen -> record "ToRestricted" [ list bool chosen ]
   | ToFullOutput k -> record "ToFullOutput" [ nat k ]
+  | ToExtended (sizes, own, sets) -> record "ToExtended" [ list nat sizes; list (list bool) own; list (list bool) sets ]
   | ToLowest g -> record "ToLowest" [ z g ]
 
 let file digest s (subject : Subject.t) t =

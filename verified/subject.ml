@@ -27,12 +27,26 @@ let feedback place value subject =
 
 let mask subject places = List.mapi (fun i _ -> List.mem i places) subject.known
 
-let augmented_outputs place subject =
+(* For each agent whom it hears, itself among them. *)
+let heard place subject =
   match subject.heard with
   | None -> invalid place "the system has no neighbor graph"
-  | Some sets ->
-    let sets = List.mapi (fun i l -> mask subject (i :: l)) sets in
-    after subject (Kernel.ToNeighbors sets) (Words.suffixed "with the outputs of neighbors measured by each agent" subject.words)
+  | Some sets -> List.mapi (fun i l -> mask subject (i :: l)) sets
+
+let augmented_outputs place subject =
+  after subject (Kernel.ToNeighbors (heard place subject)) (Words.suffixed "with the outputs of neighbors measured by each agent" subject.words)
+
+let extended place share dimensions subject =
+  let shared = match share with
+    | Json.String "outputs+states" -> "outputs and sub-states" | Json.String "states" -> "sub-states"
+    | _ -> malformed place "expected what is shared" in
+  let sizes = List.map (Json.small place) (Json.items ~length:(List.length subject.known) place dimensions) in
+  if List.exists (fun size -> size > 10_000) sizes || List.fold_left ( + ) 0 sizes > 10_000 then incomplete place "too large";
+  let sets = heard place subject in
+  let own = if shared = "sub-states" then List.mapi (fun i _ -> mask subject [ i ]) sets else sets in
+  let text = Json.canonical (Json.Object (List.map2 (fun name size -> (name, Json.Int (Z.of_int size))) subject.known sizes)) in
+  let words = Printf.sprintf "the extended system without delays sharing %s of dimensions %s" shared text in
+  after subject (Kernel.ToExtended (sizes, own, sets)) (Words.prefixed words subject.words)
 
 let full_output place value subject =
   let k = match Json.names place subject.known (Json.List [ value ]) with [ k ] -> k | _ -> assert false in
@@ -74,6 +88,8 @@ let read (plant : Plant.t) value =
     | Some (Json.String "feedback"), None ->
       feedback place (List.hd (parameters [ "gains" ])) subject
     | Some (Json.String "augmented_outputs"), None -> ignore (parameters []); augmented_outputs place subject
+    | Some (Json.String "extended"), None ->
+      (match parameters [ "share"; "dimensions" ] with [ share; dimensions ] -> extended place share dimensions subject | _ -> assert false)
     | Some (Json.String "full_output"), None -> full_output place (List.hd (parameters [ "channel" ])) subject
     | Some (Json.String "merged"), None -> merged place (List.hd (parameters [ "parts" ])) subject
     | Some (Json.String "restricted"), None -> restricted place (List.hd (parameters [ "channels" ])) subject

@@ -108,6 +108,11 @@ Lemma mx_flatten m (k : 'I_m -> nat) c (Ms : seq zmat) : size Ms = m -> (forall 
   mx (\sum_i k i) c (flatten Ms) = \mxcol_i mx (k i) c (nth [::] Ms i).
 Proof. by move=> sm sk; apply/matrixP=> r j; rewrite !mxE (nth_flatten_sig _ _ sm sk). Qed.
 End Stacks.
+Lemma shape_block a b M : shape a b (zblock a b M).
+Proof.
+rewrite /shape size_mkseq eqxx all_map; apply: sub_all (all_predT _) => i _ /=.
+by rewrite /zwide size_takel // size_cat size_nseq leq_addl.
+Qed.
 
 (* The loop of the plant of a list with the controller of a list. *)
 Section System.

@@ -227,7 +227,7 @@ split=> //=.
   rewrite nth_mkseq //=.
   have [sB sC] := represented_channel re (Ordinal im); rewrite (re_p re) in sB; rewrite (re_q re) in sC.
   case: ifP => _; rewrite /sized_channel /=; apply/andP; split=> //.
-  by rewrite -en /zblock /shape size_mkseq eqxx all_map; apply: sub_all (all_predT _) => r _ /=; rewrite /zwide size_takel // size_cat size_nseq leq_addl.
+  by rewrite -en shape_block.
 - by rewrite size_mkseq.
 - by move=> i; rewrite /channel chE' (re_p re) /=; case: ifP.
 - by move=> i; rewrite /channel chE' /= -en (re_q re) /=; case: ifP.

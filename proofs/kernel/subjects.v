@@ -6,7 +6,7 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import multichannel completeness feedback.
-From mcexact.kernel Require Import lists systems fixed_rule regions_rule facts reach_rule arcs_rule setpoint_rule program_rule stacked kinds.
+From mcexact.kernel Require Import lists systems fixed_rule regions_rule facts reach_rule arcs_rule setpoint_rule program_rule stacked shared kinds.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -32,11 +32,6 @@ Definition zlowered (g : Z) (s : zsystem) : zsystem :=
 Definition lowerable (g : Z) (s : zsystem) : bool :=
   [&& Z.ltb 0 g, Z.eqb (Z.modulo (zD s) g) 0, divisible g (zA s) & all (fun ch => divisible g (zB ch) && divisible g (zC ch)) (zchannels s)].
 
-Lemma shape_block a b M : shape a b (zblock a b M).
-Proof.
-rewrite /shape size_mkseq eqxx all_map; apply: sub_all (all_predT _) => i _ /=.
-by rewrite /zwide size_takel // size_cat size_nseq leq_addl.
-Qed.
 Lemma shape_scaled k a b M : shape a b M -> shape a b (zscaled k M).
 Proof. by case/andP=> sM al; rewrite /shape size_map sM all_map; apply: sub_all al => r; rewrite /= size_map. Qed.
 Lemma scaledE (R : comRingType) k a b M : mx R a b (zscaled k M) = phi R k *: mx R a b M.
@@ -123,6 +118,7 @@ Inductive construction :=
  | ToMerged of seq (seq bool)     (* for each new channel, which are merged *)
  | ToRestricted of seq bool
  | ToFullOutput of nat
+ | ToExtended of seq nat & seq (seq bool) & seq (seq bool)  (* dimensions, whose outputs are heard, and whose states *)
  | ToLowest of Z.                 (* the same system over a smaller denominator *)
 Definition made (K : fieldType) (X : some_system K) (c : construction) : some_system K :=
   match c with
@@ -132,6 +128,8 @@ Definition made (K : fieldType) (X : some_system K) (c : construction) : some_sy
   | ToMerged Ts => SomeSystem (merged (sy_system X) (fun k : 'I_(size Ts) => sets_of (sy_m X) Ts k))
   | ToRestricted T => SomeSystem (restricted (sy_system X) (masked T (sy_m X)))
   | ToFullOutput k => SomeSystem (full_output (sy_system X) k)
+  | ToExtended k own N =>
+    SomeSystem (extended_rows (sy_system X) (fun i : 'I_(sy_m X) => nth 0%N k i) (sets_of (sy_m X) own) (sets_of (sy_m X) N))
   | ToLowest _ => X end.
 Definition zmade (s : zsystem) (c : construction) : option zsystem :=
   match c with
@@ -141,6 +139,9 @@ Definition zmade (s : zsystem) (c : construction) : option zsystem :=
   | ToMerged Ts => if masks s Ts then Some (zmerged s Ts) else None
   | ToRestricted T => if size T == size (zchannels s) then Some (zrestricted s T) else None
   | ToFullOutput k => Some (zfull_output s k)
+  | ToExtended k own N =>
+    if [&& masks s own, masks s N, size own == size (zchannels s), size N == size (zchannels s) & size k == size (zchannels s)]
+    then Some (zextended s k own N) else None
   | ToLowest g => if lowerable g s then Some (zlowered g s) else None end.
 Definition subject_of (K : fieldType) (s : zsystem) (cs : seq construction) : some_system K :=
   foldl (@made K) (SomeSystem (system_of K s)) cs.
@@ -150,13 +151,15 @@ Fixpoint zsubject (s : zsystem) (cs : seq construction) : option zsystem :=
 Theorem made_represents (K : fieldType) (h : {rmorphism rat -> K}) s c s' (X : some_system K) :
   zmade s c = Some s' -> represents s (sy_system X) -> represents s' (sy_system (made X c)).
 Proof.
-move=> + re; case: c => [|g|N|Ts|T|k|g] /=.
+move=> + re; case: c => [|g|N|Ts|T|k|k own N|g] /=.
 - by case=> <-; apply: dual_represents.
 - by case: Z.ltb_spec => // e0 [<-]; apply: (feedback_represents h re e0).
 - by case: ifP => // /andP[ok /eqP sN] [<-]; apply: (neighbors_represents re ok sN).
 - by case: ifP => // ok [<-]; apply: (merged_represents re ok).
 - by case: eqP => // sT [<-]; apply: (restricted_represents re sT).
 - by case=> <-; apply: (full_output_represents re h k).
+- case: ifP => // /and5P[ok1 ok2 /eqP s1 /eqP s2 /eqP s3] [<-].
+  exact: (extended_represents h re ok1 ok2 s1 s2 s3).
 by case: ifP => // ok [<-]; apply: (lowered_represents h re ok).
 Qed.
 Theorem subject_represents (K : fieldType) (h : {rmorphism rat -> K}) s cs s' :

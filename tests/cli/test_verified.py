@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 import mcexact
-from mcexact import fixed_spectrum
+from mcexact import NeighborGraph, fixed_spectrum
 from mcexact.analysis.stability import certify_stability, open_loop_spectrum
 from mcexact.answer import protocol
 from mcexact.checker.kinds import check_document
@@ -23,6 +23,7 @@ from mcexact.cli import verified
 from mcexact.derived.constructions import (
     augmented_outputs,
     dual,
+    extended_system,
     feedback,
     full_output,
     merged,
@@ -310,7 +311,7 @@ def under_feedback(plant: mcexact.MultiChannelSystem) -> mcexact.MultiChannelSys
 
 def ring(plant: mcexact.MultiChannelSystem) -> mcexact.MultiChannelSystem:
     """The plant with the outputs of one neighbor measured by each agent as well."""
-    return augmented_outputs(plant, mcexact.NeighborGraph.ring(plant.names))
+    return augmented_outputs(plant, NeighborGraph.ring(plant.names))
 
 
 SUBJECTS: dict[str, tuple[Callable[..., Any], Callable[..., Any], Callable[..., Any]]] = {
@@ -323,6 +324,11 @@ SUBJECTS: dict[str, tuple[Callable[..., Any], Callable[..., Any], Callable[..., 
         ring,
         mcexact.transfer_graph,
         lambda document: document["system"].update(neighbors={"1": [], "2": [], "3": []}),
+    ),
+    "extended": (
+        lambda plant: extended_system(plant, [1, 0, 2], graph=NeighborGraph.ring(plant.names)),
+        open_loop_spectrum,
+        lambda document: document["subject"][0].update(dimensions=[1, 1, 2]),
     ),
     "full_output": (
         lambda plant: full_output(plant, 1),
@@ -362,6 +368,17 @@ def test_both_checkers_agree_about_what_constructions_make(name: str, tmp_path: 
             assert document["subject"][0]["construction"] == name
             verdict, answer = answered(tmp_path / "certificate.json", document)
             assert verdict.verdict == "VALID" and answer.confirmed, (question, answer)
+
+
+@pytest.mark.skipif(not BUILT, reason="needs the program: make verified")
+def test_sub_states_alone_are_shared(tmp_path: Path) -> None:
+    ring = NeighborGraph.ring(("1", "2", "3"))
+    system = extended_system(gallery.load(PLANT), [2, 1, 0], "states", ring)
+    document = json.loads(protocol.encode(mcexact.transfer_graph(system)))
+    assert answered(tmp_path / "certificate.json", document)[1].confirmed
+    document["subject"][0]["share"] = "outputs"
+    verdict, answer = answered(tmp_path / "malformed.json", document)
+    assert (verdict.verdict, answer.verdict) == ("MALFORMED", "MALFORMED")
 
 
 @pytest.mark.skipif(not BUILT, reason="needs the program: make verified")

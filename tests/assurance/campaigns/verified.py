@@ -32,7 +32,9 @@ KINDS = (
     *("completeness", "controllability", "fixed_spectrum", "setpoint", "transfer_graph"),
     *LOOPS,
 )
-CONSTRUCTIONS = {"augmented_outputs", "dual", "feedback", "full_output", "merged", "restricted"}
+CONSTRUCTIONS = {
+    *("augmented_outputs", "dual", "extended", "feedback", "full_output", "merged", "restricted")
+}
 """The constructions that the program applies."""
 AT_ONCE = 256
 """Files, or some more, that the program is given in one call."""
