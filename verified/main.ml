@@ -85,7 +85,9 @@ let certificate text =
   | [ _; kind; system; subject; claim; witness ] ->
     let kind = Json.string "kind" kind in
     let plant = Plant.read system in
-    (try claimed kind plant (Subject.read plant subject) claim witness
+    let subject = Subject.read plant subject in
+    Subject.require_coprime subject.Subject.den witness;
+    (try claimed kind plant subject claim witness
      with Division_by_zero -> incomplete "witness.modulus" "a number is not invertible modulo l, as evidence is prepared here")
   | _ -> assert false
 

@@ -1,10 +1,11 @@
 (* What a claim is about: the plant after some constructions, or the loop of the plant with a controller.  Trusted.
 
-   `made` are the constructions as those of the kernel, and `system` is what they make of the plant as a list. *)
+   `made` are the constructions as those of the kernel, `system` is what they make of the plant as a list, and `den` has
+   the factors of all denominators under feedback, also of those that cancel. *)
 open Refused
 
 type t = { made : Kernel.construction list; system : Kernel.zsystem; known : string list; heard : int list list option; words : string;
-           ports : string; loop : Controller.t option }
+           ports : string; den : Z.t; loop : Controller.t option }
 
 (* The system after one more construction, over the least denominator. *)
 let after subject c words =
@@ -23,7 +24,8 @@ let feedback place value subject =
   let e = List.fold_left (fun e rows -> Z.lcm e (Plant.common_denominator rows)) Z.one rows in
   let text = Json.canonical (Json.Object (List.map2 (fun name rows -> (name, Json.of_rows rows)) subject.known rows)) in
   let words = Printf.sprintf "under the decentralized gains F with %s" (Words.with_digest text) in
-  after subject (Kernel.ToFeedback { Kernel.ga_den = e; ga_F = List.map (Plant.times e) rows }) (Words.suffixed words subject.words)
+  let made = after subject (Kernel.ToFeedback { Kernel.ga_den = e; ga_F = List.map (Plant.times e) rows }) (Words.suffixed words subject.words) in
+  { made with den = Z.lcm subject.den (Z.mul subject.system.Kernel.zD e) }
 
 let mask subject places = List.mapi (fun i _ -> List.mem i places) subject.known
 
@@ -75,7 +77,7 @@ let restricted place value subject =
 (* Other constructions are not verified here, nor are loops of what constructions make. *)
 let read (plant : Plant.t) value =
   let known = plant.Plant.names and system = Plant.listed plant in
-  let start = { made = []; system; known; heard = plant.Plant.heard; words = Words.plant plant.Plant.digest plant.Plant.uncertain; ports = ""; loop = None } in
+  let start = { made = []; system; known; heard = plant.Plant.heard; words = Words.plant plant.Plant.digest plant.Plant.uncertain; ports = ""; den = Z.one; loop = None } in
   let step subject (k, value) =
     let place = Printf.sprintf "subject[%d]" k in
     let parameters keys = List.tl (Json.fields place ("construction" :: keys) value) in
@@ -102,6 +104,19 @@ let read (plant : Plant.t) value =
     | Some (Json.String _), None -> incomplete place "a construction that is not verified here"
     | _ -> malformed place "expected an object with the key \"construction\"" in
   List.fold_left step start (List.mapi (fun k value -> (k, value)) (Json.items "subject" value))
+
+(* The checker in Python takes no modulus that has a factor in common with a denominator, even of one that cancels. *)
+let rec require_coprime den = function
+  | Json.Object l ->
+    let modulus = function
+      | Json.Int l when not (Z.equal (Z.gcd l den) Z.one) -> incomplete "witness.modulus" "not coprime to the denominators of the subject"
+      | _ -> () in
+    List.iter (function
+        | ("modulus", value) -> modulus value
+        | ("moduli", Json.List l) -> List.iter modulus l
+        | (_, value) -> require_coprime den value) l
+  | Json.List l -> List.iter (require_coprime den) l
+  | _ -> ()
 
 let statement (plant : Plant.t) subject sentence =
   let added = match subject.loop with Some c -> c.Controller.added | None -> 0 in

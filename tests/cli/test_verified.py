@@ -467,6 +467,26 @@ def test_what_has_no_inverse_modulo_l_is_no_contradiction(
     assert answer.verdict == "INCOMPLETE"
 
 
+@pytest.mark.skipif(not BUILT, reason="needs the program: make verified")
+@pytest.mark.parametrize(
+    ("l", "words"), [(7, ("VALID", "CONFIRMED")), (9, ("INVALID", "INCOMPLETE"))]
+)
+def test_a_denominator_of_gains_that_cancels_is_no_contradiction(
+    l: int, words: tuple[str, str], tmp_path: Path
+) -> None:
+    claim = {"channels": ["1"], "dimension": 0, "controllable": False}
+    document = by_hand(
+        "controllability",
+        plant_by_hand([[1]], ([[0]], [[1]])),
+        {**claim, "uncontrollable_polynomial": [-1, 1]},
+        {"modulus": l, "annihilator": {"denominator": 1, "entries": [[1]]}, "pivots": [0]},
+    )
+    gains = [{"denominator": 3, "entries": [[2]]}]
+    document["subject"] = [{"construction": "feedback", "gains": gains}]
+    verdict, answer = answered(tmp_path / "certificate.json", document)
+    assert (verdict.verdict, answer.verdict) == words
+
+
 OF_LOOPS = (test_closed_loop_spectrum, test_stability)
 OF_PLANTS = (
     test_completeness,
