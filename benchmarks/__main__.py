@@ -106,6 +106,7 @@ PARTS: Mapping[str, Callable[[], Iterator[Row]]] = {
     },
     "chains with fixed modes": every_question.chain_rows,
     "questions hidden decentralized": every_question.hidden_rows,
+    "questions set-points of deficient rank": every_question.deficient_rows,
     "planted modes": fixed_spectrum.planted_rows,
     "planted modes in large plants": fixed_spectrum.large_rows,
     "planted modes of high degree": fixed_spectrum.high_degree_rows,

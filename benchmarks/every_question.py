@@ -138,6 +138,25 @@ def planted_rows(n: int) -> Iterator[Row]:
     yield from _rows(name, plant, _RATIO, _runs(n), None, partial(dense_plant, n, m))
 
 
+DEFICIENT = (20, 100, 200, 500)
+
+
+def deficient_plant(n: int, m: int) -> MultiChannelSystem:
+    """A dense plant in which two channels measure the same, and so cannot be held at two values."""
+    channels = (plant := dense_plant(n, m)).channels
+    outputs = [channels[0].C, *(channel.C for channel in channels[:-1])]
+    return MultiChannelSystem(plant.A, [channel.B for channel in channels], outputs)
+
+
+def deficient_rows() -> Iterator[Row]:
+    """Set-points that nothing holds, because the normal rank is deficient."""
+    for n in DEFICIENT:
+        m = max(n // 10, 2)
+        turn = _turn(partial(deficient_plant, n, m), setpoint_solvability)
+        name = f"two channels measure the same, n={n}, m={m}, set-points, checked"
+        yield Row(name, turn.checked, "reported", turn.verdict == "VALID", turn.detail(), "s")
+
+
 HIDDEN = (100, 200, 300)
 
 
