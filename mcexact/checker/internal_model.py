@@ -34,7 +34,7 @@ def largest_model(inner: Rows, own: Rows, reference: Rows, others: Rows, s: Row)
     states, places = undisturbed(inner, disturbing)
     motion = [[row[j] for j in places] for row in times(states, inner)]
     moved = [sum(map(mul, row, gains), Fraction(0)) for row in states]
-    return annihilator(motion, moved)
+    return minimal_polynomial(motion, moved)
 
 
 def undisturbed(inner: Rows, disturbing: Rows) -> tuple[Rows, list[int]]:
@@ -52,7 +52,7 @@ def undisturbed(inner: Rows, disturbing: Rows) -> tuple[Rows, list[int]]:
     return rows, places
 
 
-def annihilator(motion: Rows, start: Row) -> Row:
+def minimal_polynomial(motion: Rows, start: Row) -> Row:
     """The least monic p with p(M) times the start = 0, from the constant coefficient on."""
     powers = [start]
     while not (relation := left_kernel(powers)):
