@@ -199,7 +199,7 @@ def _picture(
 
 def _eigenvalues(curves: LoopCurves) -> Picture:
     count, within = len(curves.eigenvalues), sum(map(curves.keeps, curves.eigenvalues))
-    many = f"The {count} eigenvalues" if count != 1 else "The eigenvalue"
+    many = f"The {count} distinct eigenvalues" if count != 1 else "The eigenvalue"
     inside = "inside" if within == count else f"{within} of them inside"
     words = f"{many} of the loop, {inside} {' and '.join(_edges(curves))}."
     return _picture(poles, curves, "Eigenvalues", words)
